@@ -124,7 +124,10 @@ std::vector<DrawnGeometry> geometries_of(std::vector<map::PolygonsOfRegion> regi
 void add_line(std::span<const Point> line, double tolerance, DrawnGeometry& geometry) {
   std::vector<std::vector<LonLat>> parts;
   if (line.size() > 1) parts = map::line_parts(line, false, tolerance);
-  if (parts.empty()) geometry.points.push_back(lonlats(line.first(1)).front());
+  if (parts.empty()) {
+    const LonLat position = lonlats(line.first(1)).front();
+    geometry.points.push_back(map::as_written(position, line.front()));
+  }
   std::ranges::move(parts, std::back_inserter(geometry.lines));
 }
 

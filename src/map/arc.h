@@ -70,9 +70,14 @@ LonLat shortened(const LonLat& position, const Point& p);
 // that is a number of up to 9 decimals up to rounding is that number.
 LonLat as_written(const LonLat& position, const Point& p);
 
-inline MapPoint map_point(const Point& p, Positions positions = Positions::computed) {
-  const LonLat position = lonlat_of(p, is_east(p));
+// Returns a point with its position on the side of the antimeridian that is given.
+inline MapPoint map_point(const Point& p, bool east, Positions positions) {
+  const LonLat position = lonlat_of(p, east);
   return {p, positions == Positions::computed ? position : as_written(position, p)};
+}
+
+inline MapPoint map_point(const Point& p, Positions positions = Positions::computed) {
+  return map_point(p, is_east(p), positions);
 }
 
 // How far a polyline may be from its arc, in radians: `least` at the point `center`, which is

@@ -95,8 +95,8 @@ class Drawing {
       add_inner(start, end, tolerance);
       return;
     }
-    const MapPoint before{middle, lonlat_of(middle, east)};
-    const MapPoint after{middle, lonlat_of(middle, !east)};
+    const MapPoint before = map_point(middle, east, positions_);
+    const MapPoint after = map_point(middle, !east, positions_);
     add_inner(start, before, tolerance);
     add(before);
     trace_.starts.push_back(trace_.points.size());

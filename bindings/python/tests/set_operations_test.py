@@ -216,15 +216,6 @@ def test_positions_stay_what_they_are():
             assert {tuple(p) for p in shapely.get_coordinates(box)} <= positions
 
 
-def test_positions_are_not_rounded_where_polygons_would_not_be_valid(monkeypatch):
-    zigzag = shapely.Polygon([(0, 0), (3, 0), (3, 0.3), (0.2, 0.2), (3, 0.4), (3, 3)])
-    expected = rondel.union_all(zigzag)
-    monkeypatch.setattr(rondel._shapes, "_rounded", lambda positions: positions.round())
-    found = rondel.union_all(zigzag)
-    assert found.is_valid
-    assert shapely.symmetric_difference(found, expected).area < 1e-12
-
-
 def test_mappings_are_geometries():
     mapping = A.__geo_interface__
     feature = {"type": "Feature", "properties": {"name": "a"}, "geometry": mapping}

@@ -225,7 +225,7 @@ TEST(overlay_gaps, fields_have_the_weights_of_their_own_gaps) {
   std::vector<std::int32_t> covered(100, 1);
   covered[7] = 0;
   SecondOrderRemap kept(remap, covered);
-  for (const std::size_t f : {1, 0, 2, 2, 1, 0}) {
+  for (const std::size_t f : {1U, 0U, 2U, 2U, 1U, 0U}) {
     for (const double share : {1.0, 0.3, 0.0}) {
       std::vector<std::int32_t> has_value;
       for (const double value : fields[f]) has_value.push_back(std::isnan(value) ? 0 : 1);
