@@ -12,6 +12,7 @@
 
 #include "exact/point_order.h"
 #include "map/ring_area.h"
+#include "meshing/coarse_refine.h"
 #include "meshing/narrow_water.h"
 #include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
@@ -197,19 +198,32 @@ class TrianglesOfDomain {
 
   // Refines the faces of the mesh, and tells what edges follow.
   [[nodiscard]] DomainTriangles refined(const RefineOptions& options) const {
+    return with_features(refine(triangulation_, regions_, options, execution_));
+  }
+  [[nodiscard]] DomainTriangles with_features(RefinedMesh mesh) const {
     DomainTriangles result;
-    result.mesh = refine(triangulation_, regions_, options, execution_);
+    result.mesh = std::move(mesh);
     for (const Index source : result.mesh.sources) {
       result.features.push_back(source == no_index ? FeatureOfEdge::none : feature_of(source));
     }
     return result;
   }
 
+  // Refines the faces until angles show what is narrow. Triangles that are much smaller than what
+  // is filled need no angles.
+  [[nodiscard]] DomainTriangles refined_by_angles() const {
+    const auto small = [&](const Point& place) {
+      return options_.fill_narrow / 8 * options_.refine.spacing->spacing(place);
+    };
+    const RefineOptions by_angles{.most_vertices = options_.refine.most_vertices};
+    return with_features(
+        meshing::refine_coarsely(triangulation_, regions_, by_angles, small, execution_));
+  }
+
   // Makes land of narrow water, and returns its area. Lines do not make water narrow; so they wait,
   // and what of them is then on land is no edge of the mesh.
   double fill_narrow() {
     constexpr int most_times = 10;
-    const RefineOptions by_angles{.most_vertices = options_.refine.most_vertices};
     Geometries lines;
     append(all_, end_of_area_, all_.size(), lines);
     Geometries borders;
@@ -219,8 +233,8 @@ class TrianglesOfDomain {
     const double area = area_of_mesh();
     std::vector<Point> new_corners;
     for (int k = 0; k < most_times; ++k) {
-      const auto wider = meshing::without_narrow_water(refined(by_angles), *options_.refine.spacing,
-                                                       options_.fill_narrow);
+      const auto wider = meshing::without_narrow_water(
+          refined_by_angles(), *options_.refine.spacing, options_.fill_narrow);
       if (!wider) break;
       take(wider->domain);
       new_corners.insert(new_corners.end(), wider->new_corners.begin(), wider->new_corners.end());

@@ -10,12 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
 
 #include "exact/angles.h"
 #include "exact/unit_vector.h"
+#include "meshing/coarse_refine.h"
 #include "meshing/refined_faces.h"
 #include "rondel/error.h"
 #include "rondel/mesh_refine.h"
@@ -30,6 +32,7 @@ using topology::edge_of;
 using topology::face_of;
 using topology::halfedge;
 using VertexKind = RefinedFaces::VertexKind;
+using SmallLength = std::function<double(const Point&)>;  // at a place; none: nothing is small
 
 // Circumradii are at most this part of the spacing, so that edges are at most twice as long.
 constexpr double largest_radius = 0.75;
@@ -84,8 +87,8 @@ class FaceQueue {
 class Refinement {
  public:
   Refinement(const ConstrainedTriangulation& given, std::span<const Index> regions,
-             const RefineOptions& options, const Execution& execution)
-      : options_(options), execution_(execution), faces_(given, regions) {
+             const RefineOptions& options, const SmallLength& small, const Execution& execution)
+      : options_(options), small_(small), execution_(execution), faces_(given, regions) {
     const double sine = exact::sine_cosine_of_degrees(options.smallest_angle_deg).sine;
     const double half_sine = exact::sine_cosine_of_degrees(options.smallest_angle_deg / 2).sine;
     const double half_cosine = exact::sine_cosine_of_degrees(options.smallest_angle_deg / 2).cosine;
@@ -222,7 +225,13 @@ class Refinement {
   void improve_narrow(Index f) {
     if (!is_asked_for(f)) return;
     const FaceShape shape = shape_of(f);
-    if (is_narrow(shape) && !is_between_shells(f, shape)) improve(f, shape);
+    if (is_narrow(shape) && !is_between_shells(f, shape) && !is_small(f, shape)) improve(f, shape);
+  }
+
+  // True if all edges are shorter than the length from which on triangles are refined.
+  [[nodiscard]] bool is_small(Index f, const FaceShape& shape) const {
+    return small_ && std::ranges::max(shape.squares) <
+                         square(small_(faces_.point(faces_.face(f).vertex[shape.shortest])));
   }
 
   // Returns the place of a vertex that improves a triangle: on the way from the middle of the
@@ -466,6 +475,7 @@ class Refinement {
   [[nodiscard]] RefinedMesh result() const;
 
   const RefineOptions& options_;
+  const SmallLength& small_;
   const Execution& execution_;
   RefinedFaces faces_;
   double largest_ratio_ = 0;    // of the circumradius and the shortest edge, squared
@@ -518,11 +528,10 @@ RefinedMesh Refinement::result() const {
   return mesh;
 }
 
-}  // namespace
-
-RefinedMesh refine(const ConstrainedTriangulation& given, std::span<const Index> regions,
-                   const RefineOptions& options, const Execution& execution) {
-  const system::Call call(execution);
+// Throws InvalidInput if the arguments do not fit together.
+RefinedMesh refined(const ConstrainedTriangulation& given, std::span<const Index> regions,
+                    const RefineOptions& options, const SmallLength& small,
+                    const Execution& execution) {
   if (regions.size() != given.triangulation.num_faces()) {
     throw InvalidInput("there is one region for each face, not " + std::to_string(regions.size()) +
                        " for " + std::to_string(given.triangulation.num_faces()) + " faces");
@@ -534,7 +543,27 @@ RefinedMesh refine(const ConstrainedTriangulation& given, std::span<const Index>
     throw InvalidInput("the smallest angle is from 0 to 33 degrees, not " +
                        system::shortest_text(options.smallest_angle_deg));
   }
-  return Refinement(given, regions, options, execution).run();
+  return Refinement(given, regions, options, small, execution).run();
+}
+
+}  // namespace
+
+RefinedMesh refine(const ConstrainedTriangulation& given, std::span<const Index> regions,
+                   const RefineOptions& options, const Execution& execution) {
+  const system::Call call(execution);
+  return refined(given, regions, options, nullptr, execution);
 }
 
 }  // namespace rondel::mesh
+
+namespace rondel::meshing {
+
+mesh::RefinedMesh refine_coarsely(const ConstrainedTriangulation& given,
+                                  std::span<const Index> regions,
+                                  const mesh::RefineOptions& options,
+                                  const std::function<double(const Point&)>& small,
+                                  const Execution& execution) {
+  return mesh::refined(given, regions, options, small, execution);
+}
+
+}  // namespace rondel::meshing

@@ -230,6 +230,26 @@ TEST(domain_triangles, narrow_water_is_filled) {
   EXPECT_EQ(places_of(triangles(domain, options)), places_of(made));
 }
 
+// Two countries with a gap of a centimetre, of a fjord that opens from there, and of some kilometres: no gap costs
+// triangles of its width.
+TEST(domain_triangles, gaps_are_filled_however_narrow_they_are) {
+  TrianglesOptions options = spaced(1);
+  options.fill_narrow = 0.5;
+  options.refine.most_vertices = 20'000;
+  const auto mesh_of = [&](double west, double east) {
+    const Geometries north = polygon({{{0, 5 + west}, {10, 5 + east}, {10, 9}, {0, 9}}});
+    return triangles({{north, polygon({box(0, 0, 10, 5)})}, {polygon({box(-5, -5, 15, 15)})}, {}},
+                     options);
+  };
+  const DomainTriangles wide = mesh_of(0.1, 0.1);
+  for (const double gap : {1e-7, 1e-4, 1e-2}) {
+    EXPECT_EQ(mesh_of(gap, gap).mesh.nodes.size(), wide.mesh.nodes.size());
+    const DomainTriangles fjord = mesh_of(gap, 3);
+    EXPECT_GT(shortest_edge(fjord), 0.25);
+    EXPECT_GT(fjord.filled_area, 0);
+  }
+}
+
 // Returns the longest edge in degrees.
 double longest_edge(const DomainTriangles& made) {
   double most = 0;
