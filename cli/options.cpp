@@ -75,8 +75,8 @@ void add_input(CLI::App& command, CommonOptions& options, const std::string& wha
       ->type_name("");
   command
       .add_option("--input-format", options.input_format,
-                  "Format of standard input (default: csv) or, where that is not read, of\n"
-                  "INPUT (default: by its ending)")
+                  "Format of standard input (default: geojson if it begins with {, else csv) or,\n"
+                  "where that is not read, of INPUT (default: by its ending)")
       ->type_name("FORMAT");
 }
 
@@ -210,6 +210,11 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
       ->type_name("FILE");
 }
 
+bool may_have_features(const FileName& file) {
+  const std::string format = format_of(file);
+  return format == "geojson" || format == "json" || (file.path == "-" && file.format.empty());
+}
+
 FileName CommonOptions::source_beside(const std::string& other) const {
   return {input, other == "-" && input != "-" ? std::string() : input_format};
 }
@@ -335,7 +340,8 @@ CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::stri
 void add_polygon_format_option(CLI::App& parser, CommonOptions& options) {
   parser
       .add_option("--input-format", options.input_format,
-                  "Format of standard input, or of INPUT: geojson csv tsv xyz txt npy")
+                  "Format of standard input (default: geojson if it begins with {, else csv), or\n"
+                  "of INPUT: geojson csv tsv xyz txt npy")
       ->type_name("FORMAT");
 }
 

@@ -59,6 +59,9 @@ struct CommonOptions {
   [[nodiscard]] std::string format() const { return format_of(target()); }
 };
 
+/// True if a file is GeoJSON by its format or its ending, or standard input without a format.
+bool may_have_features(const FileName& file);
+
 /// Makes it a usage error to give an option that has no effect. The conditions are checked when the
 /// command line has been parsed, if the command calls add_report_options(); what they refer to must
 /// live until then.

@@ -52,11 +52,6 @@ struct BufferCommand {
   }
 };
 
-bool has_features(const FileName& file) {
-  const std::string format = format_of(file);
-  return format == "geojson" || format == "json";
-}
-
 FeatureTable read_input(Job& job, const BufferCommand& options) {
   FeatureTable table = std::move(read_features_together(std::vector{options.common.source()},
                                                         options.polygons, job.execution())
@@ -162,7 +157,7 @@ Command add_buffer_command(CLI::App& tool) {
   for (const char* const name : {"--edges", "--invalid"}) {
     require_effect(
         options->common, parser->get_option(name),
-        [given = options.get()] { return has_features(given->common.source()); },
+        [given = options.get()] { return may_have_features(given->common.source()); },
         "with INPUT of another format than geojson");
   }
   parser->footer(

@@ -122,8 +122,7 @@ void require_input(const TriangulateOptions& options) {
   require_output(common, can_write_triangles(common.target()) || is_for_model(common),
                  ".npy .off .ply .obj .stl .vtp .geojson .nc " + std::string(triangle_mesh_endings),
                  {{"--constraints", options.constraints}});
-  const std::string format = format_of(common.source());
-  if (options.constraints.empty() && format != "geojson" && format != "json") {
+  if (options.constraints.empty() && !may_have_features(common.source())) {
     throw UsageError("INPUT: without --constraints '" + common.input +
                      "' must be a .geojson file, whose lines and polygons are the constraints");
   }

@@ -17,6 +17,7 @@
 #include "exact/vector.h"
 #include "formats/feature_tables.h"
 #include "io/ending.h"
+#include "io/file_bytes.h"
 #include "io/geojson_polygons.h"
 #include "overlay/feature_polygons.h"
 #include "overlay/plane_arcs.h"
@@ -85,6 +86,20 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
     features.lines[f].clear();
   }
   return features;
+}
+
+// Reads the features of .geojson, or the sites of other files.
+map::PolygonFeatures features_or_sites_of(const FileName& file, const PolygonOptions& options,
+                                          std::vector<std::string>& remarks,
+                                          const Execution& execution) {
+  if (io::is_unnamed_input(file)) {
+    io::FileBytes input(file);
+    std::string text(input.text());
+    const FileName named = FileName::in_memory(text, io::format_of_text(text), input.name());
+    return features_or_sites_of(named, options, remarks, execution);
+  }
+  return io::is_geojson(file) ? features_of(file, io::FeatureKinds::all, options)
+                              : features_of_sites(file, remarks, execution);
 }
 
 // Returns the lines of features as arcs of great circles. Lines that are straight in longitude and
@@ -156,8 +171,7 @@ std::vector<FeatureTable> read_features_together(std::span<const FileName> files
   std::vector<std::vector<std::string>> remarks(files.size());
   sets.reserve(files.size());
   for (std::size_t k = 0; k < files.size(); ++k) {
-    sets.push_back(io::is_geojson(files[k]) ? features_of(files[k], io::FeatureKinds::all, options)
-                                            : features_of_sites(files[k], remarks[k], execution));
+    sets.push_back(features_or_sites_of(files[k], options, remarks[k], execution));
   }
   std::vector<FeatureTable> tables = formats::tables_of(std::move(sets), options, execution);
   for (std::size_t k = 0; k < tables.size(); ++k) {

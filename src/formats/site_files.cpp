@@ -92,9 +92,7 @@ void write_by_gdal(const FileName& file, const io::SitesToWrite& sites) {
 
 SiteTable read_sites(const FileName& file, const ReadOptions& options, const Execution& execution) {
   const system::Call call(execution);
-  const bool is_csv = file.path == "-" && file.format.empty();
-  const SiteReader* reader =
-      is_csv ? site_readers.data() : io::find_format<SiteReader>(site_readers, file);
+  const SiteReader* reader = io::find_format<SiteReader>(site_readers, file);
   SiteTable table;
   if (reader != nullptr && reader->read == nullptr) {
     table.name = file.path;
@@ -105,7 +103,9 @@ SiteTable read_sites(const FileName& file, const ReadOptions& options, const Exe
   io::FileBytes bytes(file);
   table.name = bytes.name();
   if (reader == nullptr) {
-    reader = &io::require_format<SiteReader>(site_readers, file, "sites are read from");
+    const FileName named(
+        file.path, io::is_unnamed_input(file) ? io::format_of_text(bytes.head()) : file.format);
+    reader = &io::require_format<SiteReader>(site_readers, named, "sites are read from");
   }
   require_columns(*reader, options, table);
   if (bytes.head().empty()) throw FileError(table.name + ": the file is empty");

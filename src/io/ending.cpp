@@ -37,6 +37,11 @@ std::string ending(const FileName& file) {
   return result;
 }
 
+std::string format_of_text(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '{' ? "geojson" : "csv";
+}
+
 bool has_netcdf_ending(const FileName& file) {
   return std::ranges::find(netcdf_endings, ending(file)) != netcdf_endings.end();
 }

@@ -29,6 +29,15 @@ inline bool is_geojson(const FileName& file) {
   return text == ".geojson" || text == ".json";
 }
 
+// True if the file is standard input, and no format is named for it.
+inline bool is_unnamed_input(const FileName& file) {
+  return file.path == "-" && file.format.empty() && file.bytes == nullptr;
+}
+
+// Returns the format of an unnamed input: "geojson" if its text begins as an object of JSON, or else
+// "csv".
+std::string format_of_text(std::string_view text);
+
 // The endings of netCDF files, including those of UGRID, Exodus and HDF5.
 inline constexpr std::array<std::string_view, 9> netcdf_endings = {
     ".nc", ".nc4", ".cdf", ".ncf", ".ug", ".exo", ".e", ".g", ".h5"};
