@@ -37,6 +37,10 @@ bool is_triangle_input(const CommonOptions& common) {
   return mesh::is_triangle_mesh_file(common.source()) && !is_netcdf_file(common.source());
 }
 
+bool has_triangles_alone(const CommonOptions& common) {
+  return is_triangle_input(common) || mesh::is_ugrid_of_triangles(common.source());
+}
+
 mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job) {
   mesh::TriangleMesh mesh;
   std::vector<std::string> remarks;

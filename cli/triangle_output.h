@@ -19,11 +19,18 @@
 
 namespace rondel::cli {
 
+/// What an INPUT that is a mesh may be besides.
+inline constexpr const char* triangle_input_help =
+    "\nOr triangles: .msh (Gmsh), .14 (ADCIRC's fort.14), .gr3 .ll (SCHISM), .2dm (SMS),\n"
+    ".nc (UGRID without centers of faces), a folder of FESOM";
+
 /// The endings of files of triangles, for messages and help.
 inline constexpr const char* triangle_mesh_endings = ".msh .14 .gr3 .ll .2dm fesom";
 
 /// True if INPUT is a mesh of triangles in a format of its own, which netCDF is not.
 bool is_triangle_input(const CommonOptions& common);
+/// True for netCDF, too, that has triangles and not the centers of cells.
+bool has_triangles_alone(const CommonOptions& common);
 
 /// Reads a mesh of triangles, and tells what was left out of it. \throws FileError
 mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job);

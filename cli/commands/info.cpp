@@ -262,7 +262,7 @@ std::string text_of(const std::string& name, const mesh::TriangleMesh& mesh, con
   return name + ": " + text_of_triangles(mesh) + '\n' + text_of("lon", lon) + text_of("lat", lat) +
          text_of("depth", depth) +
          (mesh.levels.empty() ? "" : "levels: " + std::to_string(mesh.levels.size()) + '\n') +
-         "commands that take it: mesh convert\n";
+         "commands that take it: mesh convert, mesh quality\n";
 }
 
 // Prints what a mesh of triangles has. Throws FileError for a file that cannot be read.

@@ -24,7 +24,7 @@ struct MeshConvertOptions {
 
 // True if triangles are written: in a format of ocean models, or as netCDF where INPUT has triangles.
 bool are_triangles(const CommonOptions& common) {
-  return mesh::is_triangle_mesh_file(common.target()) || is_triangle_input(common);
+  return mesh::is_triangle_mesh_file(common.target()) || has_triangles_alone(common);
 }
 
 // Returns the Delaunay triangles of sites. Throws FileError if there are none.
@@ -79,11 +79,7 @@ Command add_mesh_convert_command(CLI::App& group) {
   auto options = std::make_shared<MeshConvertOptions>();
   CLI::App* parser = group.add_subcommand("convert", "Write the mesh of sites, or of another file");
   MeshOutput& written = options->written;
-  add_input_options(
-      *parser, written.common,
-      std::string(mesh_input_help) +
-          "\nOr triangles: .msh (Gmsh), .14 (ADCIRC's fort.14), .gr3 .ll (SCHISM), .2dm "
-          "(SMS),\na folder of FESOM");
+  add_input_options(*parser, written.common, std::string(mesh_input_help) + triangle_input_help);
   add_mesh_output_options(*parser, written, MeshOutputKind::mesh_or_triangles);
   parser->add_flag(
       "--allow-zero-edges", options->allow_zero_edges,

@@ -27,6 +27,11 @@ namespace rondel::mesh {
 /// A file without a format is a folder of FESOM if it is a folder with nod2d.out.
 RONDEL_API bool is_triangle_mesh_file(const FileName& file);
 
+/// True if a netCDF file has a mesh of UGRID with faces of three nodes and no centers of faces, as
+/// write_triangle_mesh() writes it: triangles are meant, and no Voronoi cells. False for others,
+/// among them files that cannot be read.
+RONDEL_API bool is_ugrid_of_triangles(const FileName& file);
+
 /// True if write_triangle_mesh() knows the format: is_triangle_mesh_file(), or UGRID's by the format
 /// `ugrid` or the ending .nc .nc4 .ug.
 RONDEL_API bool can_write_triangle_mesh(const FileName& file);

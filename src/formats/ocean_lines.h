@@ -145,6 +145,8 @@ void read_gr3(std::string_view text, MeshInFile& file);
 void read_2dm(std::string_view text, MeshInFile& file);
 // Reads the files of a folder, whose names begin with `folder`. Throws FileError.
 void read_fesom(const std::string& folder, MeshInFile& file);
+// True if a topology has faces of three nodes and no centers of faces.
+bool has_triangles_without_centers(const io::NetcdfReader& reader);
 void read_ugrid_triangles(const io::NetcdfReader& reader, const std::string& part,
                           MeshInFile& file);
 

@@ -100,6 +100,20 @@ bool is_triangle_mesh_file(const FileName& file) {
   return ocean_format(file) != nullptr || is_fesom(file);
 }
 
+bool is_ugrid_of_triangles(const FileName& file) {
+  const system::Call call({});
+  const FileName whole = file_and_variable(file).first;
+  if (whole.path == "-" || !is_netcdf_file(whole)) return false;
+  try {
+    io::FileBytes bytes(whole, true);
+    return formats::has_triangles_without_centers(io::NetcdfReader(bytes));
+  } catch (const FileError&) {
+    return false;
+  } catch (const io::BadValue&) {
+    return false;
+  }
+}
+
 bool can_write_triangle_mesh(const FileName& file) {
   return is_triangle_mesh_file(file) || is_ugrid_file(file);
 }

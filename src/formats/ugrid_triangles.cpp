@@ -178,6 +178,16 @@ void read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
 
 }  // namespace
 
+bool has_triangles_without_centers(const io::NetcdfReader& reader) {
+  return std::ranges::any_of(reader.variables(), [&](const io::VariableInFile& mesh) {
+    const std::string faces = io::netcdf_text(mesh.attributes, "face_node_connectivity");
+    const io::VariableInFile* const nodes = faces.empty() ? nullptr : reader.find(faces);
+    return nodes != nullptr && nodes->shape.size() == 2 &&
+           std::ranges::count(nodes->shape, 3) > 0 &&
+           io::netcdf_text(mesh.attributes, "face_coordinates").empty();
+  });
+}
+
 void read_ugrid_triangles(const io::NetcdfReader& reader, const std::string& part,
                           MeshInFile& file) {
   file.base = 0;

@@ -39,6 +39,9 @@ void expect_the_same_again(const TriangleMesh& mesh, const char* format) {
   if (mesh.points.empty()) return;
   try {
     std::string bytes = written(mesh, format);
+    require(mesh::is_ugrid_of_triangles(FileName::in_memory(bytes, format)) ==
+                (format == std::string("ugrid") && !mesh.triangles.empty()),
+            "a file says that it is of triangles");
     const TriangleMesh again = read_from(bytes, format);
     require(again.triangles == mesh.triangles, "triangles come back");
     require(again.depths == mesh.depths, "depths come back");
