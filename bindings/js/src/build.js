@@ -3,8 +3,9 @@
 
 // Makes triangulations, and sites from longitudes and latitudes.
 
-import { numbers, placeOptions } from "./arguments.js";
+import { named, numbers, numbersFor, placeOptions, shown, sphereOptions } from "./arguments.js";
 import { engine } from "./engine.js";
+import { RondelError } from "./errors.js";
 import { unitVectorsBy } from "./instance.js";
 import { Triangulation, VoronoiDiagram } from "./triangulation.js";
 
@@ -31,7 +32,7 @@ export function build(Type, owner, sites, options) {
  * exact.
  * @param {Numbers} lonLat degrees, of shape (n, 2)
  * @returns {Float64Array} of shape (n, 3)
- * @throws {import("./errors.js").RondelError} for the first angle that is not finite, or latitude outside [-90, 90]
+ * @throws {RondelError} for the first angle that is not finite, or latitude outside [-90, 90]
  */
 export function unitVectors(lonLat) {
   return unitVectorsBy(engine(), numbers(lonLat, 2, "longitudes and latitudes"));
@@ -42,13 +43,13 @@ export function unitVectors(lonLat) {
  * @param {Numbers} lonLat centers, degrees, of shape (n, 2)
  * @param {Numbers} radii angular, degrees in [0, 90), of shape (n,)
  * @returns {Float64Array} of shape (n, 3)
+ * @throws {RondelError} for the first circle that is none, and if there is not one radius for each center
  */
 export function polarPoints(lonLat, radii) {
   const owner = engine();
   const angles = numbers(lonLat, 2, "longitudes and latitudes");
   const n = angles.length / 2;
-  const sizes = numbers(radii, 1, "radii");
-  if (sizes.length !== n) throw new RangeError(`there are ${sizes.length} radii for ${n} centers`);
+  const sizes = numbersFor(radii, n, "radii", "centers");
   return owner.scoped((scope) => {
     const place = scope.room(3 * n, 8);
     owner.call("rondel_polar_points", scope.copy(angles), scope.copy(sizes), n, place);
@@ -61,6 +62,8 @@ export function polarPoints(lonLat, radii) {
  * @typedef {Options & {radii?: Numbers}} LonLatOptions
  */
 
+const lonLatOptions = [...sphereOptions, "radii"];
+
 /**
  * Returns the function that makes a Type of sites, with its lonLat().
  * @template {Triangulation} T
@@ -70,9 +73,12 @@ export function maker(Type) {
   /** @param {Numbers} xyz @param {Options} [options] @returns {T} */
   const make = (xyz, options = {}) => build(Type, engine(), numbers(xyz, 3, "sites"), options);
   /** @param {Numbers} lonLat @param {LonLatOptions} [options] @returns {T} */
-  const lonLat = (lonLat, { radii, ...options } = {}) => {
-    if (radii === undefined) return make(unitVectors(lonLat), options);
-    return make(polarPoints(lonLat, radii), { ...options, model: "weighted" });
+  const lonLat = (lonLat, options = {}) => {
+    const { radii, ...others } = named(options, lonLatOptions);
+    if (radii === undefined) return make(unitVectors(lonLat), others);
+    const { model = "weighted" } = others;
+    if (model !== "weighted") throw new RondelError(`model is ${shown(model)}, but circles are "weighted"`, 0);
+    return make(polarPoints(lonLat, radii), { ...others, model });
   };
   return Object.assign(make, { lonLat });
 }
@@ -80,7 +86,8 @@ export function maker(Type) {
 /**
  * Computes the triangulation of sites x0, y0, z0, x1, ...: unique and exact for every finite input.
  * `delaunay.lonLat(array, options)` takes longitudes and latitudes in degrees.
- * @throws {import("./errors.js").RondelError} if a coordinate is not finite or a projected site is the center
+ * @throws {RondelError} if a coordinate is not finite or a projected site is the center
+ * @throws {TypeError} if sites are no array of numbers, or an option does not exist
  * @throws {RangeError} if memory runs out
  */
 export const delaunay = maker(Triangulation);

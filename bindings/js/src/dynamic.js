@@ -3,7 +3,7 @@
 
 // A triangulation whose sites can be inserted, removed and moved.
 
-import { indices, numbers, placeOptions } from "./arguments.js";
+import { count, indices, numbers, placeOptions } from "./arguments.js";
 import { engine } from "./engine.js";
 import { dispose, Handle } from "./instance.js";
 import { RondelError } from "./errors.js";
@@ -80,7 +80,7 @@ export class DynamicTriangulation extends Located {
    * @throws {RondelError} with the first position of an id that does not exist or appears twice
    */
   remove(ids) {
-    const wanted = indices(ids);
+    const wanted = indices(ids, "ids");
     this.freeLocator();
     this.engine.scoped((scope) =>
       this.engine.call("rondel_remove", this.#handle.place, scope.copy(wanted), wanted.length, 0),
@@ -94,7 +94,7 @@ export class DynamicTriangulation extends Located {
    * @throws {RondelError} like remove() and insert(), and if the lengths differ; an id may appear again
    */
   move(ids, xyz) {
-    const wanted = indices(ids);
+    const wanted = indices(ids, "ids");
     const points = numbers(xyz, 3, "points");
     if (points.length !== 3 * wanted.length) {
       throw new RondelError(`there are ${points.length / 3} points for ${wanted.length} sites to move`, 0);
@@ -125,7 +125,7 @@ export class DynamicTriangulation extends Located {
    * @returns {Uint32Array} ids
    */
   neighbors(id) {
-    const [site] = indices([id]);
+    const site = count(id, "id");
     return this.engine.scoped((scope) => {
       const { functions } = this.engine;
       const lists = scope.made("rondel_dynamic_neighbors", this.#handle.place, site);

@@ -8,7 +8,7 @@ import { encodedModule } from "./module.js";
 
 /** @typedef {import("./instance.js").Engine} Engine */
 
-const shared = loader(encodedModule);
+const shared = loader(encodedModule, "rondel_delaunay");
 export const engine = shared.engine;
 export const separateEngine = shared.separateEngine;
 
@@ -18,6 +18,7 @@ export const separateEngine = shared.separateEngine;
  * @param {BufferSource | WebAssembly.Module} [source] the module, of this version, where it comes from elsewhere than
  *   from this package's text
  * @returns {Promise<void>}
+ * @throws {import("./errors.js").RondelError} if it is another module
  */
 export function init(source) {
   return shared.init(source);

@@ -3,7 +3,8 @@
 
 /**
  * An argument breaks its contract: a coordinate that is not finite, a site at the center of the sphere, an array of
- * the wrong length, an id that does not exist. Nothing was changed.
+ * the wrong length, an id that does not exist, an object that was freed. Nothing was changed. An argument of the wrong
+ * kind, such as a text for an array, or an option that does not exist, is a TypeError.
  */
 export class RondelError extends Error {
   /**

@@ -5,6 +5,8 @@
  * Exact Delaunay triangulations, Voronoi, regular and power diagrams of points on a sphere.
  * Points are x, y, z one after the other in one array; the sphere is the unit sphere around the origin unless options
  * say otherwise; angles are radians unless they are longitudes and latitudes, which are degrees, longitude first.
+ * Wrong values throw a RondelError, arguments of the wrong kind and options that do not exist a TypeError, by name, before
+ * anything changes.
  * @module
  */
 

@@ -6,6 +6,7 @@
 // Loads modules of WebAssembly, manages their memory, and calls their functions, which are those of
 // bindings/c/include/rondel.h.
 
+import { shown } from "./arguments.js";
 import { RondelError } from "./errors.js";
 
 const pageSize = 65536;
@@ -155,11 +156,42 @@ class Scope {
   }
 }
 
+/** @param {any} source */
+function isModuleOfAnyKind(source) {
+  try {
+    return WebAssembly.validate(source);
+  } catch {
+    return false; // shared memory, or memory of another thread
+  }
+}
+
+/**
+ * Compiles what a user has in place of the package's text.
+ * @param {BufferSource | WebAssembly.Module} source
+ * @param {string} needed a function that the right module has
+ */
+async function compiledFrom(source, needed) {
+  const kind = Object.prototype.toString.call(source);
+  const isModule = kind === "[object WebAssembly.Module]";
+  if (!isModule && !ArrayBuffer.isView(source) && kind !== "[object ArrayBuffer]") {
+    throw new TypeError(`source: bytes or a WebAssembly.Module are wanted, not ${shown(source)}`);
+  }
+  const wrong = new RondelError("source: this is not the package's module of WebAssembly", 0);
+  const module = isModule
+    ? /** @type {WebAssembly.Module} */ (source)
+    : await WebAssembly.compile(/** @type {BufferSource} */ (source)).catch((error) => {
+        throw isModuleOfAnyKind(source) ? error : wrong; // a page may allow none
+      });
+  if (WebAssembly.Module.exports(module).some(({ name }) => name === needed)) return module;
+  throw wrong;
+}
+
 /**
  * Returns the functions that load a module: each module of the package has one engine that all functions share.
  * @param {string} encoded the module in base64
+ * @param {string} needed a function that this module alone has
  */
-export function loader(encoded) {
+export function loader(encoded, needed) {
   /** @type {Engine | undefined} */
   let shared;
   const compiled = () => new WebAssembly.Module(decode(encoded));
@@ -170,9 +202,9 @@ export function loader(encoded) {
       return shared;
     },
     /** @param {BufferSource | WebAssembly.Module} [source] */
-    async init(source = decode(encoded)) {
-      if (shared) return;
-      const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source);
+    async init(source) {
+      if (shared && source === undefined) return;
+      const module = await (source === undefined ? WebAssembly.compile(decode(encoded)) : compiledFrom(source, needed));
       shared ??= new Engine(module);
     },
     /** @param {{maximumMemory?: number}} limits */
@@ -219,9 +251,9 @@ export class Handle {
     forgotten.register(this, { owner, name, place }, this);
   }
 
-  /** @throws {Error} if it was freed */
+  /** @throws {RondelError} if it was freed */
   get place() {
-    if (this.#place === 0) throw new Error("Rondel: used after free()");
+    if (this.#place === 0) throw new RondelError("this object is used after free()", 0);
     return this.#place;
   }
 

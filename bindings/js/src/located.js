@@ -3,7 +3,7 @@
 
 // Queries of position and distance.
 
-import { count, numbers } from "./arguments.js";
+import { count, number, numbers, threeNumbers } from "./arguments.js";
 
 /** @typedef {import("./arguments.js").Numbers} Numbers */
 /** @typedef {import("./engine.js").Engine} Engine */
@@ -96,6 +96,7 @@ export class Located {
    * @returns {SiteLists}
    */
   within(points, angle) {
+    number(angle, "angle");
     return this.#ask(points, (place, n, locator, scope) => {
       const lists = scope.made("rondel_within", locator, place, n, angle, 0);
       try {
@@ -132,8 +133,7 @@ export class Located {
    */
   distance(point, site) {
     count(site, "site");
-    return this.#ask(point, (place, n, locator, scope) => {
-      if (n !== 1) throw new TypeError("distance: one point is wanted");
+    return this.#ask(threeNumbers(point, "point"), (place, _, locator, scope) => {
       const result = scope.room(1, 8);
       this.engine.call("rondel_distance", locator, place, site, result);
       return this.engine.doubles(result, 1)[0];

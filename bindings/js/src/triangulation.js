@@ -3,10 +3,8 @@
 
 // Triangulations and their duals.
 
-import { dispose, Handle } from "./instance.js";
+import { dispose, Engine, Handle } from "./instance.js";
 import { Located } from "./located.js";
-
-/** @typedef {import("./engine.js").Engine} Engine */
 
 /**
  * The cells of a diagram in compressed rows: the ring of site i is rings[offsets[i]] ... rings[offsets[i + 1] - 1],
@@ -26,8 +24,13 @@ export class Triangulation extends Located {
   /** @protected @type {Handle} */
   handle;
 
-  /** @param {Engine} owner @param {number} place of a rondel_triangulation, which it owns from now on */
+  /**
+   * Use delaunay() or voronoi().
+   * @param {Engine} owner
+   * @param {number} place of a rondel_triangulation, which it owns from now on
+   */
   constructor(owner, place) {
+    if (!(owner instanceof Engine)) throw new TypeError("delaunay() makes triangulations, not this constructor");
     super(owner);
     this.handle = new Handle(owner, "rondel_triangulation_free", place);
   }

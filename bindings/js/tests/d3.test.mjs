@@ -151,7 +151,7 @@ test("contours and bands agree with d3's, as areas", () => {
   assert.equal(one.value, 12);
   assert.ok(geoArea(one) > 1);
   assert.deepEqual(ours(data).map((c) => c.value), [3, 40]);
-  assert.throws(() => rondel.geoContour().value(() => NaN)(data), RangeError);
+  assert.throws(() => rondel.geoContour().value(() => NaN)(data), { name: "RondelError", index: 0 });
 });
 
 test("a number of thresholds gives d3's", () => {

@@ -27,7 +27,9 @@ test("colors go evenly through the given ones", () => {
   for (let i = 1; i < rampSize; ++i) assert.ok(bytes[4 * i] >= bytes[4 * i - 4]);
   assert.ok(Math.abs(bytes[4 * 64] - 128) < 2 && bytes[4 * 64 + 1] === 0);
   assert.deepEqual([...ramp(["#102030"]).slice(0, 8)], [16, 32, 48, 255, 16, 32, 48, 255]);
-  for (const bad of [[], ["red"], ["#12345"], [[0, 0]], [[0, 0, 256]], [[0, 0, NaN]]]) assert.throws(() => ramp(bad), TypeError);
+  for (const bad of [[], ["red"], ["#12345"], [[0, 0]], [[0, 0, 256]], [[0, 0, NaN]]]) {
+    assert.throws(() => ramp(bad), { name: "RondelError", index: 0 });
+  }
   assert.deepEqual(extent([3, NaN, -1, Infinity]), [-1, 3]);
   assert.deepEqual(extent([NaN]), [0, 1]);
 });
@@ -71,18 +73,19 @@ test("what is wrong is told before anything is drawn", async (t) => {
   assert.ok(sites.values.every(Number.isNaN));
   assert.throws(() => sites.setValues([1]), { name: "RondelError" });
   const layer = (options) => new SphereLayer({ id: "x", sites, ...options });
-  for (const options of [
-    { sites: undefined },
-    { sites: places },
-    { show: "hexagons" },
-    { show: "isolines" },
-    { colors: ["red"] },
-    { lineColor: "black" },
-    { domain: [0, NaN] },
+  for (const [options, message, index] of [
+    [{ sites: undefined }, /^sites: /],
+    [{ sites: places }, /^sites: /],
+    [{ show: "isolines" }, /^levels: /],
+    [{ show: "hexagons" }, /^show is "hexagons"/, 0],
+    [{ colors: ["#000000", "red"] }, /^colors: element 1 is "red"/, 1],
+    [{ lineColor: "black" }, /^lineColor is "black"/, 0],
+    [{ domain: [0, NaN] }, /^domain: element 1 is NaN/, 1],
   ]) {
-    assert.throws(() => layer(options), TypeError, JSON.stringify(Object.keys(options)));
+    const expected = index === undefined ? { name: "TypeError", message } : { name: "RondelError", message, index };
+    assert.throws(() => layer(options), expected);
   }
   const good = layer({ show: "isolines", levels: [1] });
   await good.loaded;
-  assert.throws(() => good.setOptions({ colors: [] }), TypeError);
+  assert.throws(() => good.setOptions({ colors: [] }), { name: "RondelError" });
 });

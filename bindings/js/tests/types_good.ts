@@ -6,7 +6,7 @@ import { geoDelaunay, geoVoronoi } from "rondel/d3";
 import { geoTriangulate, triangulate } from "rondel/polygons";
 import { startWorker } from "rondel/worker";
 
-const diagram: VoronoiDiagram = voronoi.lonLat([0, 0, 90, 0], { radii: [1, 2] });
+const diagram: VoronoiDiagram = voronoi.lonLat(Int16Array.of(0, 0, 90, 0), { radii: [1, 2] });
 const areas: Float64Array = diagram.areas;
 const triangles: Uint32Array = delaunay(new Float64Array(9), { model: "weighted", center: [0, 0, 0] }).triangles;
 const ids: Uint32Array = new DynamicTriangulation().insert([0, 0, 1]);

@@ -7,9 +7,11 @@
 // enters through the halfedge from low to high. The way goes on behind the edge from high to low; what is high lies
 // on the right, so that the ring surrounds it clockwise. The surface is closed, and so is every ring.
 
+import { callable, finiteNumbers, number, shown } from "../arguments.js";
+import { RondelError } from "../errors.js";
 import { geoDelaunay } from "./delaunay.js";
 import { following } from "./planar.js";
-import { interpolate } from "./sphere.js";
+import { interpolate, partOf } from "./sphere.js";
 import { niceTicks } from "./ticks.js";
 
 /** @typedef {import("./sphere.js").LonLat} LonLat */
@@ -47,9 +49,9 @@ function ringsOf({ triangles, halfedges }, values, threshold, pointBetween) {
 }
 
 class Contour {
-  /** @type {any} */ x = (/** @type {any} */ d) => d[0];
-  /** @type {any} */ y = (/** @type {any} */ d) => d[1];
-  /** @type {any} */ value = (/** @type {any} */ d) => (Number.isFinite(+d[2]) ? +d[2] : 0);
+  /** @type {any} */ x = (/** @type {any} */ d, /** @type {number} */ i) => partOf(d, 0, "datum", i);
+  /** @type {any} */ y = (/** @type {any} */ d, /** @type {number} */ i) => partOf(d, 1, "datum", i);
+  /** @type {any} */ value = (/** @type {any} */ d, /** @type {number} */ i) => partOf(d, 2, "datum", i);
   /** @type {any} */ thresholds = undefined;
   /** @type {any} */ ringsort = (/** @type {any[]} */ rings) => [rings];
   /** @type {any} */ triangulate = undefined;
@@ -60,11 +62,13 @@ class Contour {
 
   /** @param {any[]} data */
   read(data) {
-    this.values = Array.from(data, this.value);
+    if (!Array.isArray(data)) throw new TypeError(`data: an array is wanted, not ${shown(data)}`);
+    this.values = Array.from(data, (d, i) => this.value(d, i));
     const bad = this.values.findIndex((v) => !Number.isFinite(v));
-    if (bad >= 0) throw new RangeError(`the value ${this.values[bad]} of site ${bad} is not finite`);
-    this.points = Array.from(data, (d, i) => /** @type {LonLat} */ ([+this.x(d, i), +this.y(d, i)]));
+    if (bad >= 0) throw new RondelError(`datum ${bad}: the value is ${shown(this.values[bad])}, not a finite number`, bad);
+    this.points = Array.from(data, (d, i) => /** @type {LonLat} */ ([this.x(d, i), this.y(d, i)]));
     this.surface = this.triangulate ? this.triangulate(data, this.x, this.y) : geoDelaunay(this.points).delaunay;
+    if (!this.surface) throw new TypeError(`triangulate returned ${shown(this.surface)}, not a triangulation`);
     if (typeof this.thresholds === "object") return this.thresholds;
     const ends = this.values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
     return niceTicks(ends[0], ends[1], this.thresholds ?? defaultTicks);
@@ -103,9 +107,17 @@ class Contour {
   }
 }
 
+/** How many thresholds, or which. @param {any} wanted */
+function thresholdsFrom(wanted) {
+  if (typeof wanted === "number") number(wanted, "thresholds", 1, 1e6);
+  else finiteNumbers(wanted, "thresholds");
+  return wanted;
+}
+
 /**
  * A generator of contours: a function of data that returns an array of MultiPolygons, each with its `value`. Data are
  * [longitude, latitude, value], or what x(), y() and value() read.
+ * @throws {RondelError} when it is called, for the first datum that has no finite value
  * @returns {any} with the methods contour(data, threshold), contours(data), isobands(data), x, y, value, thresholds,
  *   triangulate, pointInterpolate and ringsort of d3-tricontour
  */
@@ -115,11 +127,14 @@ export function geoContour() {
   const contours = (/** @type {any[]} */ data) => [...state.contours(data)];
   for (const name of ["x", "y", "value", "thresholds", "triangulate", "pointInterpolate", "ringsort"]) {
     const settings = /** @type {Record<string, any>} */ (/** @type {unknown} */ (state));
-    contours[name] = (/** @type {any} */ wanted) => (wanted ? ((settings[name] = wanted), contours) : settings[name]);
+    const checked = name === "thresholds" ? thresholdsFrom : callable;
+    contours[name] = (/** @type {any} */ wanted) =>
+      wanted === undefined ? settings[name] : ((settings[name] = checked(wanted, name)), contours);
   }
   contours.contours = (/** @type {any[]} */ data) => state.contours(data);
   contours.isobands = (/** @type {any[]} */ data) => state.isobands(data);
   contours.contour = (/** @type {any[]} */ data, /** @type {number} */ threshold) => {
+    number(threshold, "threshold", -Infinity);
     state.read(data);
     return state.line(threshold);
   };

@@ -3,11 +3,12 @@
 
 // geoDelaunay() of d3-geo-voronoi 2.1, with properties that are computed when they are first read.
 
+import { count, number, numbersFor, shown } from "../arguments.js";
 import { unitVectors, voronoi } from "../build.js";
 import { noIndex } from "../located.js";
 import { hullOf } from "./hull.js";
 import { following, planarView } from "./planar.js";
-import { toLonLat, withinPoles } from "./sphere.js";
+import { isPlace, partOf, toLonLat, withinPoles } from "./sphere.js";
 
 /** @typedef {import("./sphere.js").LonLat} LonLat */
 /** @typedef {[number, number]} Pair */
@@ -24,8 +25,9 @@ import { toLonLat, withinPoles } from "./sphere.js";
  * @property {Pair[]} mesh the sides of the polygons, positions in centers
  * @property {number[]} hull of points that lie in a hemisphere
  * @property {Uint8Array} isGhost which triangles face the center, 1 for those; not of d3-geo-voronoi
- * @property {(distances: ArrayLike<number>) => boolean[]} urquhart which edges are in the Urquhart graph
- * @property {(lon: number, lat: number, next?: number) => number} find the nearest point
+ * @property {(distances: import("../arguments.js").Numbers) => boolean[]} urquhart which edges are in the Urquhart graph
+ * @property {(lon: number, lat: number, next?: number) => number | undefined} find the nearest point, `next` for a place
+ *   that is not finite, undefined without points
  */
 
 // Arcs that are less than 1.4 mrad short of half a circle keep a point in between, since rounding would decide their way.
@@ -33,8 +35,11 @@ const leastCosine = -1 + 1e-6;
 
 /** The positions of the points that are finite. @param {ArrayLike<number>[]} points */
 function finitePositions(points) {
+  if (!Array.isArray(points)) throw new TypeError(`points: an array of points is wanted, not ${shown(points)}`);
   const positions = [];
-  for (let i = 0; i < points.length; ++i) if (Number.isFinite(points[i][0] + points[i][1])) positions.push(i);
+  for (let i = 0; i < points.length; ++i) {
+    if (isPlace(partOf(points[i], 0, "point", i), points[i][1], "point", i)) positions.push(i);
+  }
   return positions;
 }
 
@@ -191,7 +196,8 @@ class LazyDelaunay {
     /** @param {number} a @param {number} b */
     const key = (a, b) => Math.min(a, b) * this.points.length + Math.max(a, b);
     const number = new Map(edges.map(([a, b], i) => [key(a, b), i]));
-    return (/** @type {ArrayLike<number>} */ distances) => {
+    return (/** @type {import("../arguments.js").Numbers} */ given) => {
+      const distances = numbersFor(given, edges.length, "distances", "edges");
       const isKept = edges.map(() => true);
       for (const [a, b, c] of triangles) {
         let [longest, length] = [-1, 0];
@@ -207,9 +213,9 @@ class LazyDelaunay {
 
   /** @param {number} lon @param {number} lat @param {number} next */
   find(lon, lat, next) {
-    if (!Number.isFinite(lon + lat)) return next;
+    if (!Number.isFinite(number(lon, "lon") + number(lat, "lat"))) return next;
     const [site] = this.diagram.nearest(unitVectors(withinPoles(lon, lat)));
-    return site === noIndex ? next : this.positions[site];
+    return site === noIndex ? undefined : this.positions[site];
   }
 }
 
@@ -217,6 +223,7 @@ class LazyDelaunay {
  * The Delaunay triangulation of points [longitude, latitude] in degrees, as of d3-geo-voronoi.
  * @param {any[]} points
  * @returns {GeoDelaunay}
+ * @throws {import("../errors.js").RondelError} for the first point that is none
  */
 export function geoDelaunay(points) {
   const lazy = new LazyDelaunay(points);
@@ -234,7 +241,7 @@ export function geoDelaunay(points) {
     urquhart: () => lazy.urquhart(result.edges, result.triangles),
   };
   const result = /** @type {GeoDelaunay} */ ({
-    find: (/** @type {number} */ lon, /** @type {number} */ lat, next = 0) => lazy.find(lon, lat, next),
+    find: (/** @type {number} */ lon, /** @type {number} */ lat, next = 0) => lazy.find(lon, lat, count(next, "next")),
   });
   for (const [name, make] of Object.entries(makers)) {
     Object.defineProperty(result, name, {

@@ -3,6 +3,10 @@
 
 // Points of the sphere as d3-geo has them: [longitude, latitude] in degrees.
 
+import { shown } from "../arguments.js";
+import { RondelError } from "../errors.js";
+import { checkGeoJson } from "../polygons/geojson.js";
+
 /** @typedef {[number, number]} LonLat longitude and latitude in degrees */
 /** @typedef {[number, number, number]} Vector */
 
@@ -44,6 +48,38 @@ export function interpolate(p, q, t) {
   const [a, b] = [toVector(p), toVector(q)];
   const [s, r] = [Math.sin((1 - t) * angle), Math.sin(t * angle)];
   return toLonLat(s * a[0] + r * b[0], s * a[1] + r * b[1], s * a[2] + r * b[2]);
+}
+
+/**
+ * Throws if a value is neither a number nor missing, as d3 has data without coordinates.
+ * @param {any} value
+ * @param {string} what
+ * @param {string} word
+ * @param {number} index
+ */
+function checkNumber(value, what, word, index) {
+  if (typeof value === "number" || value === undefined || value === null) return;
+  throw new RondelError(`${word} ${index}: the ${what} is ${shown(value)}, not a number`, index);
+}
+
+/** Whether there is such a place. @param {any} lon @param {any} lat @param {string} word @param {number} index */
+export function isPlace(lon, lat, word, index) {
+  if (typeof lon === "number" && typeof lat === "number") return Number.isFinite(lon + lat);
+  checkNumber(lon, "longitude", word, index);
+  checkNumber(lat, "latitude", word, index);
+  return false;
+}
+
+/**
+ * Reads number k of an element of an array of arrays.
+ * @param {any} element
+ * @param {number} k
+ * @param {string} word
+ * @param {number} index
+ */
+export function partOf(element, k, word, index) {
+  if (typeof element === "object" && element !== null) return element[k];
+  throw new RondelError(`${word} ${index} is ${shown(element)}, not an array such as [longitude, latitude]`, index);
 }
 
 /** The same place with a latitude in [-90, 90]: beyond a pole a meridian goes on. @param {number} lon @param {number} lat @returns {LonLat} */
@@ -101,9 +137,11 @@ class Moments {
 /**
  * Returns the center of mass of a GeoJSON object: of its areas, or if it has none of its lines, or of its points.
  * @param {any} object
+ * @param {number} index of the datum, for messages
  * @returns {LonLat} NaN where there is none
  */
-export function centroid(object) {
+export function centroid(object, index) {
+  checkGeoJson(object, { word: "datum", index });
   const geometry = object.type === "Feature" ? object.geometry : object;
   if (geometry?.type === "Point") return [geometry.coordinates[0], geometry.coordinates[1]];
   const moments = new Moments();

@@ -3,15 +3,27 @@
 
 // geoVoronoi() of d3-geo-voronoi 2.1.
 
+import { callable, number, shown } from "../arguments.js";
+import { RondelError } from "../errors.js";
 import { geoDelaunay } from "./delaunay.js";
-import { centroid, distance } from "./sphere.js";
+import { centroid, distance, isPlace, partOf } from "./sphere.js";
 
 /** @typedef {import("./sphere.js").LonLat} LonLat */
 
-/** @param {any} datum @param {0 | 1} i */
-function coordinate(datum, i) {
-  if (typeof datum === "object" && "type" in datum) return centroid(datum)[i];
-  return i in datum ? datum[i] : undefined;
+/** @param {any} datum @param {0 | 1} k @param {number} index of the datum */
+function coordinate(datum, k, index) {
+  const part = partOf(datum, k, "datum", index);
+  if ("type" in datum) return centroid(datum, index)[k];
+  if (Array.isArray(datum) || 0 in datum) return part;
+  throw new RondelError(`datum ${index} is neither an array nor GeoJSON, and needs x() and y()`, index);
+}
+
+/** The data in what a user gave; nothing without data. @param {any} data @returns {any[] | undefined} */
+function listed(data) {
+  if (data === undefined || data === null) return undefined;
+  const list = data.type === "FeatureCollection" ? data.features : data;
+  if (Array.isArray(list)) return list;
+  throw new TypeError(`data: an array or a FeatureCollection is wanted, not ${shown(data)}`);
 }
 
 /** @param {any[]} features */
@@ -30,35 +42,36 @@ const closed = (ring) => [...ring, ring[0]];
  * @returns {any} a function of data that returns itself, with the methods of d3-geo-voronoi
  */
 export function geoVoronoi(data) {
+  let reading = 0; // the datum, for messages: d3 passes no more than the datum to x() and y()
   /** @type {any} */
   const v = (/** @type {any} */ newData) => {
-    v.delaunay = null;
-    v._data = newData?.type === "FeatureCollection" ? newData.features : newData;
-    if (v._data !== null && typeof v._data === "object") {
-      v.points = [];
-      v.valid = [];
-      for (const d of v._data) {
-        const [x, y] = [v._vx(d), v._vy(d)];
-        if (!Number.isFinite(x + y)) continue;
-        v.points.push([x, y]);
-        v.valid.push(d);
-      }
-      v.delaunay = geoDelaunay(v.points);
+    const list = listed(newData);
+    /** @type {LonLat[]} */
+    const points = [];
+    const valid = [];
+    for (reading = 0; list && reading < list.length; ++reading) {
+      const datum = list[reading];
+      const [x, y] = [v._vx(datum), v._vy(datum)];
+      if (!isPlace(x, y, "datum", reading)) continue;
+      points.push([x, y]);
+      valid.push(datum);
     }
+    const delaunay = list ? geoDelaunay(points) : null;
+    Object.assign(v, { _data: list, points, valid, delaunay });
     return v;
   };
-  v._vx = (/** @type {any} */ d) => coordinate(d, 0);
-  v._vy = (/** @type {any} */ d) => coordinate(d, 1);
+  v._vx = (/** @type {any} */ d) => coordinate(d, 0, reading);
+  v._vy = (/** @type {any} */ d) => coordinate(d, 1, reading);
   addAccessors(v);
   addDiagram(v);
   addQuestions(v);
-  return data ? v(data) : v;
+  return data === undefined ? v : v(data);
 }
 
 /** @param {any} v */
 function addAccessors(v) {
-  v.x = (/** @type {any} */ f) => (f ? ((v._vx = f), v) : v._vx);
-  v.y = (/** @type {any} */ f) => (f ? ((v._vy = f), v) : v._vy);
+  v.x = (/** @type {any} */ f) => (f === undefined ? v._vx : ((v._vx = callable(f, "x")), v));
+  v.y = (/** @type {any} */ f) => (f === undefined ? v._vy : ((v._vy = callable(f, "y")), v));
 }
 
 // Adds a method that takes new data if it is given some, and returns false without data.
@@ -151,8 +164,9 @@ function addQuestions(v) {
   });
   // The radius is in radians, in spite of the README of d3-geo-voronoi; farther sites give undefined.
   v.find = (/** @type {number} */ lon, /** @type {number} */ lat, /** @type {number} */ radius) => {
-    v._found = v.delaunay.find(lon, lat, v._found);
-    if (!radius || distance([lon, lat], v.points[v._found]) < radius) return v._found;
-    return undefined;
+    if (radius !== undefined) number(radius, "radius", 0);
+    v._found = v.delaunay?.find(lon, lat, v._found);
+    const place = v.points?.[v._found];
+    return place && (!radius || distance([lon, lat], place) < radius) ? v._found : undefined;
   };
 }

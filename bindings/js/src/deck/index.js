@@ -12,7 +12,7 @@
  */
 
 import { Layer } from "@deck.gl/core";
-import { Painter } from "../layers/painter.js";
+import { checkedLayer, layerOptions, Painter } from "../layers/painter.js";
 
 export { SphereSites } from "../layers/sites.js";
 
@@ -70,8 +70,7 @@ const blending = (gl) => ({
   blendFunc: [gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA],
 });
 
-/** The names of LayerOptions. */
-const names = ["sites", "show", "colors", "domain", "levels", "lineColor", "lineWidth", "spacing"];
+const names = layerOptions.filter((name) => name !== "opacity");
 
 /** The options of a layer in its props; deck.gl applies the opacity. @param {any} props @returns {LayerOptions} */
 const optionsOf = (props) =>
@@ -95,6 +94,12 @@ export class SphereLayer extends Layer {
     lineWidth: 1,
     spacing: 2,
   };
+
+  /** Tells now what is wrong, not when it is drawn. @param {(LayerOptions & Record<string, any>)[]} props */
+  constructor(...props) {
+    super(.../** @type {[any]} */ (props));
+    checkedLayer(optionsOf(this.props));
+  }
 
   /** @override */
   initializeState() {

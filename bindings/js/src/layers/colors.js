@@ -3,6 +3,9 @@
 
 // Color ramps.
 
+import { shown } from "../arguments.js";
+import { RondelError } from "../errors.js";
+
 /** @typedef {string | readonly number[]} Color "#rrggbb", or red, green, blue and perhaps alpha, from 0 to 255 */
 
 /** From dark blue to light yellow. @type {readonly Color[]} */
@@ -13,16 +16,18 @@ export const rampSize = 256;
 /**
  * Returns red, green, blue and alpha from 0 to 255.
  * @param {Color} color
+ * @param {string} what
+ * @param {number} [index] of several
  * @returns {number[]}
  */
-export function rgba(color) {
-  if (typeof color !== "string") {
-    const [r, g, b, a = 255] = color;
-    if ([r, g, b, a].every((part) => part >= 0 && part <= 255)) return [r, g, b, a];
-  } else if (/^#[0-9a-f]{6}$/i.test(color)) {
+export function rgba(color, what, index = 0) {
+  if (typeof color === "string" && /^#[0-9a-f]{6}$/i.test(color)) {
     return [1, 3, 5].map((k) => parseInt(color.slice(k, k + 2), 16)).concat(255);
   }
-  throw new TypeError(`${JSON.stringify(color)} is no color: "#rrggbb", or three or four numbers from 0 to 255`);
+  const isPart = (/** @type {unknown} */ part) => typeof part === "number" && part >= 0 && part <= 255;
+  const parts = Array.isArray(color) || ArrayBuffer.isView(color) ? Array.from(/** @type {any} */ (color)) : [];
+  if ((parts.length === 3 || parts.length === 4) && parts.every(isPart)) return [...parts, 255].slice(0, 4);
+  throw new RondelError(`${what} is ${shown(color)}, not "#rrggbb" or three or four numbers from 0 to 255`, index);
 }
 
 /**
@@ -30,8 +35,9 @@ export function rgba(color) {
  * @param {readonly Color[]} colors
  */
 export function ramp(colors) {
-  if (colors.length === 0) throw new TypeError("colors: at least one color is wanted");
-  const stops = colors.map(rgba);
+  if (!Array.isArray(colors)) throw new TypeError(`colors: an array of colors is wanted, not ${shown(colors)}`);
+  if (colors.length === 0) throw new RondelError("colors: at least one color is wanted", 0);
+  const stops = Array.from(colors, (color, i) => rgba(color, `colors: element ${i}`, i));
   const bytes = new Uint8Array(4 * rampSize);
   for (let i = 0; i < rampSize; ++i) {
     const place = (i / (rampSize - 1)) * (stops.length - 1);

@@ -5,7 +5,10 @@
 
 import { defaultColors, ramp, rgba } from "./colors.js";
 import { Renderer } from "./renderer.js";
+import { finiteNumbers, named, number, shown } from "../arguments.js";
+import { RondelError } from "../errors.js";
 import { vertexValues } from "../surface/meshes.js";
+import { drawnOptions } from "../surface/options.js";
 
 /** @typedef {import("./colors.js").Color} Color */
 /** @typedef {import("./renderer.js").View} View */
@@ -14,31 +17,38 @@ import { vertexValues } from "../surface/meshes.js";
 /**
  * @typedef {object} LayerOptions
  * @property {SphereSites} sites
- * @property {import("../surface/sites.js").Show} [show] "cells" (the default: each has the color of its site),
+ * @property {import("../surface/options.js").Show} [show] "cells" (the default: each has the color of its site),
  *   "triangles" (colors are linear in each), "isolines", "cell-borders" or "triangle-borders"
  * @property {readonly Color[]} [colors] from the first to the last value of `domain`
  * @property {readonly [number, number]} [domain] default: the least and the largest value
- * @property {ArrayLike<number>} [levels] isolines: the values of the lines
+ * @property {import("../arguments.js").Numbers} [levels] isolines: the values of the lines
  * @property {Color} [lineColor] lines: one color in place of `colors`; default of borders: black
  * @property {number} [lineWidth] lines: CSS pixels; default 1
  * @property {number} [opacity] from 0 to 1; default 1
  * @property {number} [spacing] degrees: sides that are longer are divided, so that they follow the globe; default 2
  */
 
-const shown = ["cells", "triangles", "isolines", "cell-borders", "triangle-borders"];
+/** The names of LayerOptions. */
+export const layerOptions = ["sites", "show", "colors", "domain", "levels", "lineColor", "lineWidth", "opacity", "spacing"];
 
 /**
  * Returns the options if they can be drawn; otherwise the error comes now, not when the host draws.
  * @param {LayerOptions} options
  */
-function checked(options) {
-  const { sites, show = "cells", colors, lineColor, levels, domain } = options;
-  if (typeof sites?.drawn !== "function") throw new TypeError("sites: what SphereSites.open() returns is wanted");
-  if (!shown.includes(show)) throw new TypeError(`show is ${JSON.stringify(show)}, not one of ${shown.join(", ")}`);
-  if (show === "isolines" && !levels) throw new TypeError("levels: isolines need them");
-  if (colors) ramp(colors);
-  if (lineColor) rgba(lineColor);
-  if (domain && !domain.every(Number.isFinite)) throw new TypeError("domain: two numbers are wanted");
+export function checkedLayer(options) {
+  const { sites, show, spacing, levels, ...look } = named(options, layerOptions);
+  const { colors, domain, lineColor, lineWidth = 1, opacity = 1 } = look;
+  if (typeof sites?.onChange !== "function") {
+    throw new TypeError(`sites: what SphereSites.open() returns is wanted, not ${shown(sites)}`);
+  }
+  drawnOptions({ show, spacing, levels });
+  if (colors !== undefined) ramp(colors);
+  if (lineColor !== undefined) rgba(lineColor, "lineColor");
+  number(lineWidth, "lineWidth", 0);
+  number(opacity, "opacity", 0, 1);
+  if (domain !== undefined && finiteNumbers(domain, "domain").length !== 2) {
+    throw new RondelError(`domain: two numbers are wanted, not ${domain.length}`, 0);
+  }
   return options;
 }
 
@@ -59,7 +69,7 @@ export class Painter {
    * @param {() => void} redraw asks the host to draw
    */
   constructor(options, redraw) {
-    this.options = checked(options);
+    this.options = checkedLayer(options);
     this.redraw = redraw;
     this.listen();
     /** Whether what the layer shows can be drawn. */
@@ -91,7 +101,7 @@ export class Painter {
   /** @param {LayerOptions} options */
   setOptions(options) {
     const before = this.options;
-    this.options = checked(options);
+    this.options = checkedLayer(options);
     if (before.sites !== options.sites) this.listen();
     const levels = (/** @type {LayerOptions} */ { levels: list }) => Array.from(list ?? []).join();
     const isSame =
@@ -143,7 +153,7 @@ export class Painter {
     gl.disable(gl.CULL_FACE);
     renderer.draw(view, {
       domain: /** @type {[number, number]} */ (domain ?? sites.extent),
-      color: renderer.isLines && lineColor ? rgba(lineColor).map((part) => part / 255) : [0, 0, 0, 0],
+      color: renderer.isLines && lineColor ? rgba(lineColor, "lineColor").map((part) => part / 255) : [0, 0, 0, 0],
       opacity: opacity * (this.options.opacity ?? 1),
       width: lineWidth * pixelRatio,
       isPremultiplied,

@@ -3,29 +3,27 @@
 
 // Sites that layers draw: a worker triangulates them once, and makes what layers show.
 
-import { RondelError } from "../errors.js";
-import { startWorker } from "../worker/index.js";
+import { callable, named, number, numbers, numbersFor } from "../arguments.js";
+import { drawnOptions } from "../surface/options.js";
+import { RondelWorker, startWorker } from "../worker/index.js";
 import { extent } from "./colors.js";
 
-/** @typedef {import("../surface/sites.js").DrawnOptions} DrawnOptions */
+/** @typedef {import("../arguments.js").Numbers} Numbers */
+/** @typedef {import("../surface/options.js").DrawnOptions} DrawnOptions */
 /** @typedef {import("../surface/lines.js").Lines} Lines */
 /** @typedef {import("../surface/meshes.js").Mesh} Mesh */
 
 /**
  * `lon` and `lat` are degrees, `values` has one for each site, NaN where there is none; default: NaN.
- * @typedef {{lon: ArrayLike<number>, lat: ArrayLike<number>, values?: ArrayLike<number>}} SitesOptions
+ * @typedef {{lon: Numbers, lat: Numbers, values?: Numbers}} SitesOptions
  */
 
 /** The site nearest to a place. @typedef {{site: number, value: number, lon: number, lat: number}} Picked */
 
 const noIndex = 0xffffffff;
 
-/** @param {ArrayLike<number> | undefined} values @param {number} n */
-function checkedValues(values, n) {
-  if (values === undefined) return new Float64Array(n).fill(NaN);
-  if (values.length !== n) throw new RondelError(`there are ${values.length} values for ${n} sites`, Math.min(n, values.length));
-  return Float64Array.from(values);
-}
+/** A copy of the values of n sites. @param {Numbers} values @param {number} n */
+const valuesFor = (values, n) => numbersFor(values, n, "values", "sites").slice();
 
 /** Sites with values, for any number of layers. */
 export class SphereSites {
@@ -40,13 +38,15 @@ export class SphereSites {
    * Triangulates sites in a worker of their own.
    * @param {SitesOptions} options
    * @returns {Promise<SphereSites>}
-   * @throws {RondelError} with the index of the first site that is not a place
+   * @throws {import("../errors.js").RondelError} with the index of the first site that is not a place
    */
-  static async open({ lon, lat, values }) {
-    const known = checkedValues(values, lon.length);
+  static async open(options) {
+    const { values, ...given } = named(options, ["lon", "lat", "values"]);
+    const lon = numbers(given.lon, 1, "lon").slice();
+    const places = { lon, lat: numbersFor(given.lat, lon.length, "lat", "longitudes").slice() };
+    const known = values === undefined ? new Float64Array(lon.length).fill(NaN) : valuesFor(values, lon.length);
     const worker = await startWorker();
     try {
-      const places = { lon: Float64Array.from(lon), lat: Float64Array.from(lat) };
       return new SphereSites(worker, await worker.sites(places), places, known);
     } catch (error) {
       await worker.stop();
@@ -62,6 +62,7 @@ export class SphereSites {
    * @param {Float64Array} values
    */
   constructor(worker, remote, places, values) {
+    if (!(worker instanceof RondelWorker)) throw new TypeError("SphereSites.open() makes sites, not this constructor");
     this.#worker = worker;
     this.#remote = remote;
     /** The longitudes of the sites, degrees. */
@@ -82,9 +83,9 @@ export class SphereSites {
     return extent(this.values);
   }
 
-  /** Changes the values; layers draw them. @param {ArrayLike<number>} values one for each site; NaN: none */
+  /** Changes the values; layers draw them. @param {Numbers} values one for each site; NaN: none */
   setValues(values) {
-    this.values = checkedValues(values, this.numSites);
+    this.values = valuesFor(values, this.numSites);
     ++this.valuesChanged;
     for (const key of this.#made.keys()) if (key.startsWith("isolines")) this.#made.delete(key);
     for (const listener of this.#listeners) listener();
@@ -92,21 +93,22 @@ export class SphereSites {
 
   /** Calls a function whenever values have changed, until the function that it returns is called. @param {() => void} listener */
   onChange(listener) {
-    this.#listeners.add(listener);
+    this.#listeners.add(callable(listener, "listener"));
     return () => void this.#listeners.delete(listener);
   }
 
   /**
    * Returns the arrays that a layer draws; layers that show the same share them.
-   * @param {DrawnOptions} options
+   * @param {Omit<DrawnOptions, "values">} [options] isolines are those of the sites' values
    * @returns {Promise<Mesh | Lines>}
    */
-  drawn({ show = "cells", spacing, levels }) {
-    const key = [show, spacing, ...Array.from(levels ?? [])].join();
+  drawn(options = {}) {
+    const { show, spacing, levels } = drawnOptions(named(options, ["show", "spacing", "levels"]));
+    const key = [show, spacing, ...(levels ?? [])].join();
     const values = show === "isolines" ? this.values : undefined;
     let made = this.#made.get(key);
     if (!made) {
-      made = this.#remote.drawn({ show, spacing, values, levels: levels && Float64Array.from(levels) });
+      made = this.#remote.drawn({ show, spacing, values, levels });
       this.#made.set(key, made);
     }
     return made;
@@ -119,7 +121,7 @@ export class SphereSites {
    * @returns {Promise<Picked | undefined>} undefined without sites
    */
   async at(lon, lat) {
-    const site = await this.#remote.nearest(lon, lat);
+    const site = await this.#remote.nearest(number(lon, "lon"), number(lat, "lat"));
     if (site === noIndex) return undefined;
     return { site, value: this.values[site], lon: this.lon[site], lat: this.lat[site] };
   }

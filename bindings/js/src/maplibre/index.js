@@ -10,7 +10,8 @@
  * @module
  */
 
-import { Painter } from "../layers/painter.js";
+import { named, shown } from "../arguments.js";
+import { layerOptions, Painter } from "../layers/painter.js";
 
 export { SphereSites } from "../layers/sites.js";
 
@@ -58,9 +59,11 @@ export class SphereLayer {
   #painter;
 
   /** @param {LayerOptions & {id: string}} options */
-  constructor({ id, ...options }) {
+  constructor(options) {
+    const { id, ...others } = named(options, ["id", ...layerOptions]);
+    if (typeof id !== "string") throw new TypeError(`id is ${shown(id)}, not a text`);
     this.id = id;
-    this.#painter = new Painter(options, () => this.#map?.triggerRepaint());
+    this.#painter = new Painter(others, () => this.#map?.triggerRepaint());
   }
 
   /** Resolves when what the layer shows can be drawn. */
@@ -70,7 +73,7 @@ export class SphereLayer {
 
   /** Changes some options. @param {Partial<LayerOptions>} options */
   setOptions(options) {
-    this.#painter.setOptions({ ...this.#painter.options, ...options });
+    this.#painter.setOptions({ ...this.#painter.options, ...named(options) });
   }
 
   /** MapLibre calls this. @param {HostMap} map */

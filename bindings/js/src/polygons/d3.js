@@ -3,6 +3,8 @@
 
 // Triangles of polygons as d3-geo has them: sides are great circles, and what is inside is to the right of rings.
 
+import { named } from "../arguments.js";
+import { RondelError } from "../errors.js";
 import { toLonLat } from "../d3/sphere.js";
 import { unitVectorsBy } from "../instance.js";
 import { engine } from "./engine.js";
@@ -37,18 +39,42 @@ function turnedRings({ features, polygons, rings, lonLat }) {
 }
 
 /**
+ * Throws for rings that have no inside, and for sides that have no shortest way, since their ends are opposite.
+ * @param {{cells: number[], rings: number[], lonLat: number[]}} turned
+ * @param {Float64Array} corners their unit vectors
+ */
+function checkRings({ cells, rings, lonLat }, corners) {
+  for (let f = 0; f + 1 < cells.length; ++f) {
+    for (let r = cells[f]; r < cells[f + 1]; ++r) {
+      const n = rings[r + 1] - rings[r];
+      if (n < 3) throw new RondelError(`feature ${f}: a ring has ${n} corners, fewer than three`, f);
+      for (let k = rings[r]; k < rings[r + 1]; ++k) {
+        const next = k + 1 < rings[r + 1] ? k + 1 : rings[r];
+        const isOpposite = [0, 1, 2].every((i) => corners[3 * k + i] === -corners[3 * next + i]);
+        if (!isOpposite) continue;
+        const ends = [k, next].map((p) => `[${lonLat[2 * p]}, ${lonLat[2 * p + 1]}]`).join(" and ");
+        throw new RondelError(`feature ${f}: ${ends} are opposite to each other`, f);
+      }
+    }
+  }
+}
+
+/**
  * Triangulates the inside of polygons as d3-geo reads them: great circles join positions, exterior rings are clockwise,
  * and a polygon may be larger than a hemisphere. Corners are the positions that were given.
  * @param {any} object GeoJSON, also {type: "Sphere"}
  * @param {{spacing?: number}} [options] `spacing` as for triangulate()
  * @returns {GeoTriangles}
- * @throws {import("../errors.js").RondelError} with the index of a feature whose rings do not divide in and out
+ * @throws {RondelError} with the index of a feature whose rings do not divide in and out
  */
-export function geoTriangulate(object, { spacing = 0 } = {}) {
+export function geoTriangulate(object, options = {}) {
+  const { spacing = 0 } = named(options, ["spacing"]);
   const owner = engine();
   const flat = flatPolygons(object);
-  const { cells, rings, lonLat } = turnedRings(flat);
+  const turned = turnedRings(flat);
+  const { cells, rings, lonLat } = turned;
   const corners = unitVectorsBy(owner, Float64Array.from(lonLat));
+  checkRings(turned, corners);
   const n = cells.length - 1;
   const whole = Uint32Array.from(flat.isSphere.flatMap((is, f) => (is ? [f] : [])));
   const made = withMade(

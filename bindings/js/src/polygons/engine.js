@@ -6,7 +6,7 @@
 import { loader } from "../instance.js";
 import { encodedModule } from "./module.js";
 
-const shared = loader(encodedModule);
+const shared = loader(encodedModule, "rondel_polygons_create");
 export const engine = shared.engine;
 
 /**
@@ -15,6 +15,7 @@ export const engine = shared.engine;
  * @param {BufferSource | WebAssembly.Module} [source] the module, of this version, where it comes from elsewhere than
  *   from this package's text
  * @returns {Promise<void>}
+ * @throws {import("../errors.js").RondelError} if it is another module
  */
 export function init(source) {
   return shared.init(source);

@@ -3,6 +3,7 @@
 
 // The polygons of GeoJSON as flat arrays.
 
+import { named, shown } from "../arguments.js";
 import { RondelError } from "../errors.js";
 
 /**
@@ -11,36 +12,99 @@ import { RondelError } from "../errors.js";
  * @typedef {{features: number[], polygons: number[], rings: number[], lonLat: Float64Array, isSphere: boolean[]}} FlatPolygons
  */
 
-const withoutInside = ["Point", "MultiPoint", "LineString", "MultiLineString"];
+/** How deep the positions of a geometry lie. @type {Record<string, number>} */
+const depths = { Point: 0, MultiPoint: 1, LineString: 1, MultiLineString: 2, Polygon: 2, MultiPolygon: 3 };
+
+/**
+ * Where a geometry is in what was passed: "feature" 3. Messages begin with it.
+ * @typedef {{word: string, index: number}} Place
+ */
+
+/** @param {Place} place @param {string} flaw */
+const flawed = ({ word, index }, flaw) => new RondelError(`${word} ${index}: ${flaw}`, index);
+
+/** @param {any} position */
+const isPosition = (position) =>
+  (Array.isArray(position) || ArrayBuffer.isView(position)) &&
+  typeof (/** @type {any} */ (position)[0]) === "number" &&
+  typeof (/** @type {any} */ (position)[1]) === "number";
+
+const mostNested = 100; // RFC 7946 advises against any; a collection may hold itself
+
+/** @param {number} depth @param {Place} place */
+function checkDepth(depth, place) {
+  if (depth > mostNested) throw flawed(place, `collections lie in each other more than ${mostNested} times`);
+}
+
+/**
+ * Returns what is an array in valid GeoJSON.
+ * @param {any} value
+ * @param {string} name
+ * @param {Place} place
+ * @returns {any[]}
+ */
+function arrayOf(value, name, place) {
+  if (Array.isArray(value)) return value;
+  throw flawed(place, `${name} has ${shown(value)} in place of an array`);
+}
+
+/** @param {any} coordinates @param {number} depth @param {Place} place */
+function checkCoordinates(coordinates, depth, place) {
+  if (depth > 0) for (const inner of arrayOf(coordinates, "coordinates", place)) checkCoordinates(inner, depth - 1, place);
+  else if (!isPosition(coordinates)) throw flawed(place, `${shown(coordinates)} is no [longitude, latitude]`);
+}
+
+/** Throws if this is none of the geometries that have coordinates. @param {any} geometry @param {Place} place */
+function checkGeometry(geometry, place) {
+  const { type, coordinates } = geometry ?? {};
+  if (!Object.hasOwn(depths, type)) throw flawed(place, `${shown(type ?? geometry)} is no geometry of GeoJSON`);
+  checkCoordinates(coordinates, depths[type], place);
+}
+
+/**
+ * Throws if an object is no GeoJSON; null, for no geometry, and {type: "Sphere"} are some.
+ * @param {any} object
+ * @param {Place} place
+ * @param {number} [depth] in collections
+ */
+export function checkGeoJson(object, place, depth = 0) {
+  if (object === null || object?.type === "Sphere") return;
+  checkDepth(depth, place);
+  const { type, features, geometries, geometry } = object ?? {};
+  const check = (/** @type {any} */ part) => checkGeoJson(part, place, depth + 1);
+  if (type === "FeatureCollection") for (const feature of arrayOf(features, "features", place)) check(feature);
+  else if (type === "GeometryCollection") for (const part of arrayOf(geometries, "geometries", place)) check(part);
+  else if (type === "Feature") check(geometry);
+  else checkGeometry(object, place);
+}
 
 /**
  * Writes the positions of a ring.
  * @param {any[]} ring
- * @param {number} feature
+ * @param {Place} place
  * @param {Float64Array} lonLat
- * @param {number} place of the first number
+ * @param {number} begin of its first number
  */
-function placeRing(ring, feature, lonLat, place) {
+function placeRing(ring, place, lonLat, begin) {
   for (const position of ring) {
-    const isArray = Array.isArray(position) || ArrayBuffer.isView(position);
-    const lon = isArray ? /** @type {any} */ (position)[0] : undefined;
-    const lat = isArray ? /** @type {any} */ (position)[1] : undefined;
-    if (typeof lon !== "number" || typeof lat !== "number") {
-      throw new RondelError(`feature ${feature}: ${JSON.stringify(position)} is no [longitude, latitude]`, feature);
-    }
-    lonLat[place++] = lon;
-    lonLat[place++] = lat;
+    if (!isPosition(position)) throw flawed(place, `${shown(position)} is no [longitude, latitude]`);
+    const lon = position[0];
+    const lat = position[1];
+    if (!(Math.abs(lat) <= 90)) throw flawed(place, `latitude ${lat} is outside [-90, 90]`);
+    if (!Number.isFinite(lon)) throw flawed(place, `longitude ${lon} is not finite`);
+    lonLat[begin++] = lon;
+    lonLat[begin++] = lat;
   }
 }
 
 /**
  * @param {any} rings of a polygon
- * @param {number} feature
+ * @param {Place} place
  * @param {FlatPolygons} flat
  */
-function addPolygon(rings, feature, flat) {
+function addPolygon(rings, place, flat) {
   if (!Array.isArray(rings) || !rings.every(Array.isArray)) {
-    throw new RondelError(`feature ${feature}: the coordinates of a polygon are an array of rings`, feature);
+    throw flawed(place, "the coordinates of a polygon are an array of rings");
   }
   for (const ring of rings) {
     const first = flat.rings[flat.rings.length - 1];
@@ -50,7 +114,7 @@ function addPolygon(rings, feature, flat) {
       longer.set(flat.lonLat.subarray(0, 2 * first));
       flat.lonLat = longer;
     }
-    placeRing(ring, feature, flat.lonLat, 2 * first);
+    placeRing(ring, place, flat.lonLat, 2 * first);
     flat.rings.push(end);
   }
   flat.polygons.push(flat.rings.length - 1);
@@ -58,19 +122,20 @@ function addPolygon(rings, feature, flat) {
 
 /**
  * @param {any} geometry
- * @param {number} feature
+ * @param {Place} place
  * @param {FlatPolygons} flat
+ * @param {number} [depth] in collections
  */
-function addGeometry(geometry, feature, flat) {
-  if (geometry === null || geometry === undefined || withoutInside.includes(geometry.type)) return;
-  const { type, coordinates, geometries } = geometry;
-  if (type === "Sphere") flat.isSphere[feature] = true;
-  else if (type === "Polygon") addPolygon(coordinates, feature, flat);
-  else if (type === "MultiPolygon" && Array.isArray(coordinates)) {
-    for (const rings of coordinates) addPolygon(rings, feature, flat);
-  } else if (type === "GeometryCollection" && Array.isArray(geometries)) {
-    for (const part of geometries) addGeometry(part, feature, flat);
-  } else throw new RondelError(`feature ${feature}: ${JSON.stringify(type)} is no geometry of GeoJSON`, feature);
+function addGeometry(geometry, place, flat, depth = 0) {
+  const { type, coordinates, geometries } = geometry ?? {};
+  if (type === "Sphere") flat.isSphere[place.index] = true;
+  else if (type === "Polygon") addPolygon(coordinates, place, flat);
+  else if (type === "MultiPolygon") {
+    for (const rings of arrayOf(coordinates, "coordinates", place)) addPolygon(rings, place, flat);
+  } else if (type === "GeometryCollection") {
+    checkDepth(depth, place);
+    for (const part of arrayOf(geometries, "geometries", place)) addGeometry(part, place, flat, depth + 1);
+  } else if (geometry !== null) checkGeometry(geometry, place);
 }
 
 /**
@@ -79,16 +144,17 @@ function addGeometry(geometry, feature, flat) {
  * @returns {FlatPolygons}
  */
 export function flatPolygons(object) {
-  if (object === null || typeof object !== "object") throw new TypeError("an object of GeoJSON is wanted");
+  named(object, undefined, "object");
   const features = object.type === "FeatureCollection" ? object.features : [object];
-  if (!Array.isArray(features)) throw new TypeError("a FeatureCollection has an array of features");
+  if (!Array.isArray(features)) throw new TypeError(`object: features has ${shown(features)} in place of an array`);
   /** @type {FlatPolygons} */
   const flat = { features: [0], polygons: [0], rings: [0], lonLat: new Float64Array(1024), isSphere: [] };
-  features.forEach((item, feature) => {
+  for (let index = 0; index < features.length; ++index) {
+    const item = features[index] ?? undefined; // null is no feature
     flat.isSphere.push(false);
-    addGeometry(item?.type === "Feature" ? item.geometry : item, feature, flat);
+    addGeometry(item?.type === "Feature" ? item.geometry : item, { word: "feature", index }, flat);
     flat.features.push(flat.polygons.length - 1);
-  });
+  }
   flat.lonLat = flat.lonLat.subarray(0, 2 * flat.rings[flat.rings.length - 1]);
   return flat;
 }

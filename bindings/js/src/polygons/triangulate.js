@@ -3,6 +3,7 @@
 
 // Triangles that fill polygons of GeoJSON.
 
+import { named, number, oneOf } from "../arguments.js";
 import { engine } from "./engine.js";
 import { RondelError } from "../errors.js";
 import { flatPolygons } from "./geojson.js";
@@ -64,7 +65,7 @@ export function trianglesOf(owner, polygons, n, spacing) {
   return withMade(
     owner,
     "rondel_triangles_free",
-    (scope) => scope.made("rondel_triangulate_polygons", polygons, Number(spacing), 0),
+    (scope) => scope.made("rondel_triangulate_polygons", polygons, number(spacing, "spacing", 0), 0),
     (made) => {
       const { functions } = owner;
       const offsets = owner.offsets(functions.rondel_triangle_offsets(made), n + 1);
@@ -77,6 +78,9 @@ export function trianglesOf(owner, polygons, n, spacing) {
   );
 }
 
+const edgeKinds = ["lonlat", "geodesic"];
+const remedies = ["error", "repair"];
+
 /**
  * Writes a rondel_reading.
  * @param {Engine} owner
@@ -84,12 +88,10 @@ export function trianglesOf(owner, polygons, n, spacing) {
  * @param {TriangulateOptions} options
  */
 function placeReading(owner, scope, { edges = "lonlat", invalid = "error" }) {
-  const numbers = [["lonlat", "geodesic"].indexOf(edges), ["error", "repair"].indexOf(invalid)];
-  if (numbers[0] < 0) throw new RondelError(`edges are "lonlat" or "geodesic", not ${JSON.stringify(edges)}`, 0);
-  if (numbers[1] < 0) throw new RondelError(`invalid is "error" or "repair", not ${JSON.stringify(invalid)}`, 0);
+  const kinds = [edgeKinds.indexOf(oneOf(edges, edgeKinds, "edges")), remedies.indexOf(oneOf(invalid, remedies, "invalid"))];
   const place = scope.room(3, 8);
   owner.functions.rondel_reading_init(place);
-  new Int32Array(owner.memory.buffer, place + 4, 2).set(numbers);
+  new Int32Array(owner.memory.buffer, place + 4, 2).set(kinds);
   return place;
 }
 
@@ -101,8 +103,10 @@ function placeReading(owner, scope, { edges = "lonlat", invalid = "error" }) {
  * @param {TriangulateOptions} [options]
  * @returns {Triangles} with a row of offsets for each feature of a FeatureCollection, one for any other object
  * @throws {RondelError} with the index of a feature that is not valid
+ * @throws {TypeError} if this is no object, or an option does not exist
  */
-export function triangulate(object, { spacing = 0, ...options } = {}) {
+export function triangulate(object, options = {}) {
+  const { spacing = 0, ...reading } = named(options, ["edges", "invalid", "spacing"]);
   const owner = engine();
   const { features, polygons, rings, lonLat, isSphere } = flatPolygons(object);
   const sphere = isSphere.indexOf(true);
@@ -124,7 +128,7 @@ export function triangulate(object, { spacing = 0, ...options } = {}) {
       withMade(
         owner,
         "rondel_polygons_free",
-        (scope) => scope.made("rondel_polygons_of_features", made, placeReading(owner, scope, options), 0),
+        (scope) => scope.made("rondel_polygons_of_features", made, placeReading(owner, scope, reading), 0),
         (arcs) => trianglesOf(owner, arcs, n, spacing),
       ),
   );

@@ -4,7 +4,7 @@
 /**
  * The entry of a Web Worker for viewers of irregular grids: it answers each message `{id, lon, lat, show, spacing, values,
  * levels}`, of which only `lon` and `lat` are needed, by `{id, positions, indices, ...}`, or by `{id, error}` if the sites
- * are not valid, in the order of the messages.
+ * or the options are not valid, in the order of the messages.
  * @module
  */
 

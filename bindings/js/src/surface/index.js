@@ -15,7 +15,7 @@ export { DrawnSites } from "./sites.js";
 
 /** @typedef {import("./lines.js").Lines} Lines */
 /** @typedef {import("./meshes.js").Mesh} Mesh */
-/** @typedef {import("./sites.js").DrawnOptions} DrawnOptions */
+/** @typedef {import("./options.js").DrawnOptions} DrawnOptions */
 /** @typedef {import("./sites.js").Places} Places */
 
 /**

@@ -75,9 +75,6 @@ function addCrossing(points, values, a, b, level, segments) {
  * @returns {Lines}
  */
 export function isolines(diagram, values, levels, spacing) {
-  if (values.length !== diagram.numSites) {
-    throw new RangeError(`there are ${values.length} values for ${diagram.numSites} sites`);
-  }
   const { points } = diagram;
   const triangles = solidFaces(diagram);
   /** @type {number[]} */

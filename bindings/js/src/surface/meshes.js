@@ -3,6 +3,7 @@
 
 // Cells and triangles as vertices and triangles for a graphics card.
 
+import { named, numbersFor } from "../arguments.js";
 import { refineTriangles } from "./refine.js";
 
 /** @typedef {import("../triangulation.js").VoronoiDiagram} VoronoiDiagram */
@@ -187,18 +188,21 @@ export function meshOfTriangles(diagram, spacing) {
  * Returns a value for each vertex of a mesh: of cells that of the site whose cell it is in (NaN on borders, where no
  * triangle asks), of triangles the mean of two vertices at their middle.
  * @param {Mesh} mesh
- * @param {ArrayLike<number>} values one for each site; NaN: none
+ * @param {import("../arguments.js").Numbers} values one for each site; NaN: none
  * @returns {Float32Array}
  */
 export function vertexValues(mesh, values) {
-  const { numSites, sites, parents } = mesh;
-  if (values.length !== numSites) throw new RangeError(`there are ${values.length} values for ${numSites} sites`);
-  const result = new Float32Array(mesh.positions.length / 3);
+  const { numSites, sites, parents, positions } = named(mesh, undefined, "mesh");
+  if (!ArrayBuffer.isView(positions) || !(sites ?? parents)) {
+    throw new TypeError("mesh: cells or triangles that surface() made are wanted");
+  }
+  const known = numbersFor(values, numSites, "values", "sites");
+  const result = new Float32Array(positions.length / 3);
   if (sites) {
-    for (let v = 0; v < result.length; ++v) result[v] = sites[v] === noIndex ? NaN : values[sites[v]];
+    for (let v = 0; v < result.length; ++v) result[v] = sites[v] === noIndex ? NaN : known[sites[v]];
     return result;
   }
-  for (let v = 0; v < numSites; ++v) result[v] = values[v];
+  for (let v = 0; v < numSites; ++v) result[v] = known[v];
   const pairs = parents ?? new Uint32Array(0);
   for (let m = 0; m < pairs.length / 2; ++m) {
     result[numSites + m] = (result[pairs[2 * m]] + result[pairs[2 * m + 1]]) / 2;

@@ -5,7 +5,13 @@
 // globe. Whether a side is divided depends on the side alone, and its middle is made once, so that triangles that share
 // a side share its pieces: there are no gaps.
 
+import { RondelError } from "../errors.js";
+
 const radiansPerDegree = Math.PI / 180;
+const mostPoints = 2 ** 24 - 1; // so many entries a Map of V8 has
+
+/** @param {number} spacing */
+const tooFine = (spacing) => new RondelError(`spacing is ${spacing} degrees, which makes more than ${mostPoints} points`, 0);
 
 /** An array of numbers that grows. */
 class Growing {
@@ -78,6 +84,24 @@ function middle(points, a, b) {
 }
 
 /**
+ * Returns a number of points that the pieces of triangles have at least. Pieces lie outside of their triangle, so that
+ * their areas have no smaller sum; none is larger than the equilateral triangle with the longest sides; and a surface on
+ * the sphere has one vertex for two triangles, or more.
+ * @param {Float64Array} points
+ * @param {Uint32Array} triangles
+ * @param {number} longest the squared length of the longest sides
+ */
+function leastPoints(points, triangles, longest) {
+  let area = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
+    const [p, q, r] = [squaredChord(points, a, b), squaredChord(points, b, c), squaredChord(points, c, a)];
+    area += Math.sqrt(Math.max(0, 4 * p * q - (p + q - r) ** 2)) / 4; // Heron
+  }
+  return area === 0 ? 0 : area / ((Math.sqrt(3) / 4) * longest) / 2;
+}
+
+/**
  * Divides triangles whose sides are longer than the spacing, at the middles of these sides.
  * @param {Float64Array} points unit vectors, x, y, z ...
  * @param {Uint32Array} triangles three positions in points each
@@ -87,6 +111,8 @@ function middle(points, a, b) {
  */
 export function refineTriangles(points, triangles, spacing) {
   const longest = longestChord(spacing);
+  const isFine = spacing > 0 && spacing < 0.06; // coarser ones are few enough: 13 million for all of the sphere
+  if (isFine && leastPoints(points, triangles, longest) > mostPoints + points.length / 3) throw tooFine(spacing);
   const all = new Growing(points);
   const parents = new Growing(new Uint32Array(0));
   /** @type {Map<number, number>} */
@@ -98,6 +124,7 @@ export function refineTriangles(points, triangles, spacing) {
     const key = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
     let made = middles.get(key);
     if (made === undefined) {
+      if (middles.size === mostPoints) throw tooFine(spacing);
       made = all.add(...middle(/** @type {Float64Array} */ (all.values), a, b)) / 3;
       parents.add(a, b);
       middles.set(key, made);
@@ -118,7 +145,6 @@ export function refineTriangles(points, triangles, spacing) {
     }
     pending = /** @type {Uint32Array} */ (next.all());
   }
-  if (all.length / 3 > 2 ** 26) throw new RangeError(`a spacing of ${spacing} degrees makes too many points`);
   const isSame = all.length / 3 === numGiven;
   return {
     points: isSame ? points : /** @type {Float64Array} */ (all.all()),
@@ -159,6 +185,9 @@ export function refineSegments(segments, spacing) {
   let isAnyLong = false;
   for (let s = 0; s < n && !isAnyLong; ++s) isAnyLong = squaredChord(segments, 2 * s, 2 * s + 1) > longest;
   if (!isAnyLong) return { segments, origins: undefined };
+  let total = 0;
+  for (let s = 0; s < n; ++s) total += Math.sqrt(squaredChord(segments, 2 * s, 2 * s + 1));
+  if (total / Math.sqrt(longest) > mostPoints) throw tooFine(spacing);
   const pieces = new Growing(new Float64Array(0));
   const origins = new Growing(new Uint32Array(0));
   /** @param {number[]} ends @param {number} origin */

@@ -5,7 +5,7 @@
 //
 //     {id, lon, lat, show, spacing, values, levels}  in; only lon and lat are needed
 //     {id, positions, indices, ...}                  out, see Mesh and Lines; arrays are moved
-//     {id, error: {name, message, index}}            out, if the sites are not valid
+//     {id, error: {name, message, index}}            out, if sites or options are not valid
 
 import { surface } from "./index.js";
 

@@ -3,41 +3,29 @@
 
 // Sites with longitudes and latitudes, triangulated once, and what is drawn of them.
 
-import { voronoi } from "../build.js";
-import { RondelError } from "../errors.js";
-import { unitVectors } from "../build.js";
+import { named, number, numbers, numbersFor } from "../arguments.js";
+import { unitVectors, voronoi } from "../build.js";
 import { bordersOfCells, bordersOfTriangles, isolines } from "./lines.js";
 import { meshOfCells, meshOfTriangles } from "./meshes.js";
+import { drawnOptions } from "./options.js";
 
 /** @typedef {import("./lines.js").Lines} Lines */
 /** @typedef {import("./meshes.js").Mesh} Mesh */
-/** @typedef {"cells" | "triangles" | "isolines" | "cell-borders" | "triangle-borders"} Show */
+/** @typedef {import("../arguments.js").Numbers} Numbers */
+/** @typedef {import("./options.js").DrawnOptions} DrawnOptions */
+/** @typedef {import("./options.js").Show} Show */
 
-/**
- * The arrays of a surface.
- * @typedef {object} DrawnOptions
- * @property {Show} [show] "cells" (the default), "triangles", "isolines", "cell-borders" or "triangle-borders"
- * @property {number} [spacing] degrees: sides that are longer are divided, so that flat pieces follow the globe (default
- *   2); 0: no points are added
- * @property {ArrayLike<number>} [values] isolines: one for each site; NaN: none
- * @property {ArrayLike<number>} [levels] isolines: the values of the lines
- */
-
-/** @typedef {{lon: ArrayLike<number>, lat: ArrayLike<number>}} Places longitudes and latitudes of sites, degrees */
-
-export const defaultSpacing = 2;
+/** @typedef {{lon: Numbers, lat: Numbers}} Places longitudes and latitudes of sites, degrees */
 
 /**
  * Returns longitudes and latitudes one after the other.
- * @param {Places} places
+ * @param {Places} places what else it has is not looked at, except for options, which are no places
  */
-export function pairs({ lon, lat }) {
-  if (lon?.length === undefined || lat?.length === undefined) {
-    throw new TypeError("lon and lat are arrays of degrees");
-  }
-  if (lon.length !== lat.length) {
-    throw new RondelError(`there are ${lon.length} longitudes and ${lat.length} latitudes`, Math.min(lon.length, lat.length));
-  }
+export function pairs(places) {
+  const misplaced = ["show", "spacing", "levels"].find((name) => name in named(places, undefined, "places"));
+  if (misplaced) throw new TypeError(`places: ${misplaced} belongs in the options`);
+  const lon = numbers(places.lon, 1, "lon");
+  const lat = numbersFor(places.lat, lon.length, "lat", "longitudes");
   const result = new Float64Array(2 * lon.length);
   for (let i = 0; i < lon.length; ++i) {
     result[2 * i] = lon[i];
@@ -52,7 +40,7 @@ export class DrawnSites {
 
   /**
    * @param {Places} places
-   * @throws {RondelError} with the index of the first site that is not a place
+   * @throws {import("../errors.js").RondelError} with the index of the first site that is not a place
    */
   constructor(places) {
     this.#diagram = voronoi(unitVectors(pairs(places)));
@@ -67,16 +55,17 @@ export class DrawnSites {
    * Makes what is drawn.
    * @param {DrawnOptions} [options]
    * @returns {Mesh | Lines}
+   * @throws {import("../errors.js").RondelError} if a spacing makes too many points, or values are not one for each site
    */
-  drawn({ show = "cells", spacing = defaultSpacing, values, levels } = {}) {
-    if (!(spacing >= 0)) throw new RondelError(`spacing = ${spacing} is not a number of degrees`, 0);
+  drawn(options = {}) {
+    const { show, spacing, values, levels } = drawnOptions(options);
+    const isKnown = show === "isolines" || values !== undefined;
+    const known = isKnown ? numbersFor(/** @type {Numbers} */ (values), this.numSites, "values", "sites") : undefined;
     if (show === "cells") return meshOfCells(this.#diagram, spacing);
     if (show === "triangles") return meshOfTriangles(this.#diagram, spacing);
     if (show === "cell-borders") return bordersOfCells(this.#diagram, spacing);
     if (show === "triangle-borders") return bordersOfTriangles(this.#diagram, spacing);
-    if (show !== "isolines") throw new RondelError(`show is ${JSON.stringify(show)}, which is not known`, 0);
-    if (!values || !levels) throw new TypeError("isolines need values and levels");
-    return isolines(this.#diagram, values, levels, spacing);
+    return isolines(this.#diagram, /** @type {any} */ (known), /** @type {any} */ (levels), spacing);
   }
 
   /**
@@ -85,7 +74,7 @@ export class DrawnSites {
    * @param {number} lat degrees
    */
   nearest(lon, lat) {
-    return this.#diagram.nearest(unitVectors([lon, lat]))[0];
+    return this.#diagram.nearest(unitVectors([number(lon, "lon"), number(lat, "lat")]))[0];
   }
 
   /** Frees the memory. */

@@ -23,7 +23,7 @@ import { RondelError } from "../errors.js";
 /** @typedef {import("../located.js").Locations} Locations */
 /** @typedef {import("../surface/lines.js").Lines} Lines */
 /** @typedef {import("../surface/meshes.js").Mesh} Mesh */
-/** @typedef {import("../surface/sites.js").DrawnOptions} DrawnOptions */
+/** @typedef {import("../surface/options.js").DrawnOptions} DrawnOptions */
 /** @typedef {import("../surface/sites.js").Places} Places */
 /** @typedef {import("../polygons/triangulate.js").Triangles} Triangles */
 /** @typedef {import("../polygons/triangulate.js").TriangulateOptions} TriangulateOptions */
@@ -73,8 +73,20 @@ import { RondelError } from "../errors.js";
  * @property {() => Promise<void>} free
  */
 
-const questions = ["nearest", "kNearest", "within", "locate", "free"];
-const changes = ["insert", "remove", "move", "moveAll", "ids", "snapshot"];
+/** The arguments of methods. @typedef {Record<string, readonly string[]>} Methods */
+
+/** @type {Methods} */
+const questions = {
+  nearest: ["points"],
+  kNearest: ["points", "k"],
+  within: ["points", "angle"],
+  locate: ["points"],
+  free: [],
+};
+/** @type {Methods} */
+const changes = { insert: ["sites"], remove: ["ids"], move: ["ids", "points"], moveAll: ["points"], ids: [], snapshot: [] };
+/** @type {Methods} */
+const drawing = { drawn: ["options"], nearest: ["lon", "lat"], free: [] };
 
 /**
  * @typedef {object} Connection to a worker
@@ -103,15 +115,27 @@ function revived({ name, text, index }) {
   return name === "RangeError" ? new RangeError(text) : name === "TypeError" ? new TypeError(text) : new Error(text);
 }
 
+/** Whether a worker can get a copy of a value. @param {unknown} value */
+function canBeSent(value) {
+  try {
+    structuredClone(value);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
 /** A worker and its pending requests. */
 export class RondelWorker {
   #connection;
   #lastId = 0;
+  #isStopped = false;
   /** @type {Map<number, {resolve: (value: any) => void, reject: (error: Error) => void}>} */
   #waiting = new Map();
 
-  /** @param {Connection} connection */
+  /** Use startWorker(). @param {Connection} connection */
   constructor(connection) {
+    if (typeof connection?.listen !== "function") throw new TypeError("startWorker() makes workers, not this constructor");
     this.#connection = connection;
     connection.listen(({ id, value, error }) => {
       const { resolve, reject } = /** @type {any} */ (this.#waiting.get(id));
@@ -121,19 +145,32 @@ export class RondelWorker {
     });
   }
 
-  /** @param {number} object @param {string} method @param {any[]} args @returns {Promise<any>} */
-  #ask(object, method, args) {
+  /**
+   * Posts a request. What cannot be copied to the worker is no argument of any method.
+   * @param {number} object
+   * @param {string} method
+   * @param {readonly string[]} names of its arguments
+   * @param {any[]} args
+   * @returns {Promise<any>}
+   */
+  #ask(object, method, names, args) {
+    if (this.#isStopped) throw new RondelError(`${method}() is used after the worker was stopped`, 0);
     return new Promise((resolve, reject) => {
-      this.#waiting.set(++this.#lastId, { resolve, reject });
-      this.#connection.post({ id: this.#lastId, object, method, args });
+      try {
+        this.#connection.post({ id: ++this.#lastId, object, method, args: args.slice(0, names.length) });
+        this.#waiting.set(this.#lastId, { resolve, reject });
+      } catch {
+        const bad = names.filter((_, i) => !canBeSent(args[i])).join(" and ");
+        reject(new TypeError(`${bad}: functions, symbols and proxies cannot be copied to a worker`));
+      }
     });
   }
 
-  /** @param {any} result @param {string[]} methods */
+  /** @param {any} result @param {Methods} methods */
   #remote({ object, ...result }, methods) {
-    for (const method of methods) {
+    for (const [method, names] of Object.entries(methods)) {
       result[method] = async (/** @type {any[]} */ ...args) => {
-        const value = await this.#ask(object, method, args);
+        const value = await this.#ask(object, method, names, args);
         return method === "snapshot" ? this.#remote(value, questions) : value;
       };
     }
@@ -142,31 +179,32 @@ export class RondelWorker {
 
   /** @param {Numbers} xyz @param {Options} [options] @returns {Promise<RemoteTriangulation>} */
   async delaunay(xyz, options = {}) {
-    return this.#remote(await this.#ask(0, "delaunay", [xyz, options]), questions);
+    return this.#remote(await this.#ask(0, "delaunay", ["sites", "options"], [xyz, options]), questions);
   }
 
   /** @param {Numbers} xyz @param {Options} [options] @returns {Promise<RemoteDiagram>} */
   async voronoi(xyz, options = {}) {
-    return this.#remote(await this.#ask(0, "voronoi", [xyz, options]), questions);
+    return this.#remote(await this.#ask(0, "voronoi", ["sites", "options"], [xyz, options]), questions);
   }
 
   /** @param {Numbers} [xyz] @param {Options} [options] @returns {Promise<RemoteDynamic>} */
   async dynamic(xyz = new Float64Array(), options = {}) {
-    return this.#remote(await this.#ask(0, "dynamic", [xyz, options]), [...questions, ...changes]);
+    return this.#remote(await this.#ask(0, "dynamic", ["sites", "options"], [xyz, options]), { ...questions, ...changes });
   }
 
   /** @param {Places} places @returns {Promise<RemoteSites>} */
   async sites(places) {
-    return this.#remote(await this.#ask(0, "sites", [places]), ["drawn", "nearest", "free"]);
+    return this.#remote(await this.#ask(0, "sites", ["places"], [places]), drawing);
   }
 
   /** @param {any} object GeoJSON @param {TriangulateOptions} [options] @returns {Promise<Triangles>} */
   async triangulate(object, options = {}) {
-    return this.#ask(0, "triangulate", [object, options]);
+    return this.#ask(0, "triangulate", ["object", "options"], [object, options]);
   }
 
-  /** Ends the worker; pending requests are never answered. */
+  /** Ends the worker; pending requests are never answered, later ones are errors. */
   async stop() {
+    this.#isStopped = true;
     await this.#connection.stop();
   }
 }

@@ -6,6 +6,7 @@
 
 import { DynamicTriangulation } from "../dynamic.js";
 import { delaunay, voronoi } from "../build.js";
+import { RondelError } from "../errors.js";
 import { DrawnSites } from "../surface/sites.js";
 
 const properties = ["dimension", "numSites", "numVertices", "numFaces"];
@@ -51,7 +52,8 @@ const makers = {
 function answer({ object, method, args }) {
   if (object === 0) return /** @type {any} */ (makers)[method](...args);
   const target = objects.get(object);
-  if (method === "free") objects.delete(object);
+  if (target === undefined && method !== "free") throw new RondelError(`${method}() is used after free()`, 0);
+  if (method === "free") return void (objects.delete(object) && target.free());
   if (method === "snapshot") return described(target.snapshot(), [...properties, ...arrays, ...dualArrays]);
   if (method === "ids") return target.ids;
   return target[method](...args);
