@@ -194,7 +194,7 @@ def makers(root):
         "parcels.geojson": features(("Polygon", [[[0, 0], [10, 10], [10, 0], [0, 10], [0, 0]]]), box(32, -2, 40, 6)),
         "region.geojson": features(box(-30, -20, 40, 50)),
         "land.geojson": copy(root, "data/land-110m.geojson"),
-        "coast.geojson": copy(root, "data/land-110m.geojson"),
+        "coast.geojson": features(box(-10, 40, 20, 60)),
         "countries.geojson": features(box(-20, -35, 50, 37), box(50, 5, 150, 60), box(-130, -50, -40, 55)),
         "faults.csv": table("from,to", ["0,1", "1,2"]),
         "circles.csv": by_rondel("generate circles -n 300"),
