@@ -393,8 +393,10 @@ class MpasReader {
           const std::uint64_t at = place_of(v, cells[j]);
           const std::size_t next = (j + 1) % 3;
           if (arrays_.cells_on_cell[at] != cells[next]) {
-            throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
-                           std::to_string(cells[j]) + " and " + std::to_string(cells[next]));
+            throw BadValue(
+                "vertex " + std::to_string(v) + " has no edge between its cell " +
+                std::to_string(cells[j]) + " and " +
+                (cells[next] == no_index ? "the border" : "cell " + std::to_string(cells[next])));
           }
           // The edge between cell j and the next one stands before the next one.
           edges[next] = arrays_.edges_on_cell.values[at];

@@ -33,4 +33,9 @@ bool has_mpas_arrays(const io::NetcdfReader& file);
 // indices from 0, where the file counts from 1. Throws BadValue if they are not those of a mesh.
 mesh::VoronoiMesh read_mpas_arrays(const io::NetcdfReader& file, const Execution& execution);
 
+// Returns a sentence on the first list of the file that read_mpas_arrays() does not read and that
+// has other cells, edges or vertices than the mesh; empty if there is none. Throws BadValue if a
+// list cannot be read.
+std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh);
+
 }  // namespace rondel::formats

@@ -211,6 +211,7 @@ VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Ex
   }
   CellTable table;
   std::string remark;
+  std::string remark_on_arrays;
   {
     io::FileBytes bytes(file, true);
     if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
@@ -222,12 +223,15 @@ VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Ex
       remark = remark_on_fields(reader);
       if (formats::has_mpas_arrays(reader)) {
         arrays = formats::read_mpas_arrays(reader, execution);
+        if (remarks != nullptr) remark_on_arrays = formats::remark_on_lists(reader, *arrays);
       } else {
         table = formats::cells_in(reader, bytes.name(), {});
       }
     });
     leave_out_masked(table);
-    if (!remark.empty()) table.facts.remarks.push_back(std::move(remark));
+    for (std::string* const text : {&remark_on_arrays, &remark}) {
+      if (!text->empty()) table.facts.remarks.push_back(std::move(*text));
+    }
     if (remarks != nullptr) *remarks = table.facts.remarks;
     if (arrays) return std::move(*arrays);
   }

@@ -60,7 +60,7 @@ inline bool is_east(const Point& p) { return p.y >= 0; }
 
 // A unit vector is that of many longitudes and latitudes: `computed` are those of lonlat_of(), and
 // `written` those of as_written().
-enum class Positions : std::uint8_t { computed, written };
+enum class MapPositions : std::uint8_t { computed, written };
 
 // Returns the position with the fewest decimals that has this unit vector, if one of up to 12
 // decimals has; or one of 13 decimals next to the given one that has; or the given one.
@@ -71,12 +71,12 @@ LonLat shortened(const LonLat& position, const Point& p);
 LonLat as_written(const LonLat& position, const Point& p);
 
 // Returns a point with its position on the side of the antimeridian that is given.
-inline MapPoint map_point(const Point& p, bool east, Positions positions) {
+inline MapPoint map_point(const Point& p, bool east, MapPositions positions) {
   const LonLat position = lonlat_of(p, east);
-  return {p, positions == Positions::computed ? position : as_written(position, p)};
+  return {p, positions == MapPositions::computed ? position : as_written(position, p)};
 }
 
-inline MapPoint map_point(const Point& p, Positions positions = Positions::computed) {
+inline MapPoint map_point(const Point& p, MapPositions positions = MapPositions::computed) {
   return map_point(p, is_east(p), positions);
 }
 

@@ -108,7 +108,7 @@ class RegionDrawing {
  private:
   void add(std::span<const Point> ring, std::span<const ArcTolerance> tolerances) {
     Trace trace;
-    draw(ring, tolerances, trace, Positions::written);
+    draw(ring, tolerances, trace, MapPositions::written);
     rings_.emplace_back(ring.begin(), ring.end());
     if (trace.starts.empty()) {
       Loop& loop = loops_.emplace_back();
@@ -295,9 +295,9 @@ std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, do
   Trace trace;
   if (is_closed) {
     const std::vector<ArcTolerance> tolerances(points.size(), {tolerance, tolerance, {}});
-    draw(points, tolerances, trace, Positions::written);
+    draw(points, tolerances, trace, MapPositions::written);
   } else {
-    draw_line(points, {tolerance, tolerance, {}}, trace, Positions::written);
+    draw_line(points, {tolerance, tolerance, {}}, trace, MapPositions::written);
   }
   if (trace.starts.empty()) {
     trace.points.push_back(trace.points.front());

@@ -28,7 +28,7 @@ Point crossing(const Point& west, const Point& east) {
 
 class Drawing {
  public:
-  Drawing(Trace& trace, Positions positions) : trace_(trace), positions_(positions) {
+  Drawing(Trace& trace, MapPositions positions) : trace_(trace), positions_(positions) {
     trace_.points.clear();
     trace_.arcs.clear();
     trace_.starts.clear();
@@ -150,7 +150,7 @@ class Drawing {
   }
 
   Trace& trace_;
-  Positions positions_;
+  MapPositions positions_;
   MapPoint last_{};
   std::uint32_t arc_ = 0;
   int winding_ = 0;
@@ -159,7 +159,7 @@ class Drawing {
 }  // namespace
 
 void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace,
-          Positions positions) {
+          MapPositions positions) {
   Drawing drawing(trace, positions);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     drawing.add_arc(ring[i], ring[(i + 1) % ring.size()], static_cast<std::uint32_t>(i),
@@ -169,7 +169,7 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
 }
 
 void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace,
-               Positions positions) {
+               MapPositions positions) {
   Drawing drawing(trace, positions);
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     drawing.add_arc(line[i], line[i + 1], static_cast<std::uint32_t>(i), tolerance);

@@ -41,12 +41,12 @@ struct Trace {
 // on both sides of it fit together. Precondition: the region to the left of the ring is spherically
 // convex, at most a hemisphere.
 void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace,
-          Positions positions = Positions::computed);
+          MapPositions positions = MapPositions::computed);
 
 // Draws an open line of at least two points in the same way. The first points of all its chains are
 // in `starts`.
 void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace,
-               Positions positions = Positions::computed);
+               MapPositions positions = MapPositions::computed);
 
 // Returns all pairs of lines of a trace that meet without being neighbors: the places where a ring
 // that is simple on the sphere crosses itself when it is drawn in the plane. A line is named by its

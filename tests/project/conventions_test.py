@@ -16,7 +16,7 @@ CONVENTIONS = {
     "UGRID": ("ugrid.cpp ugrid_triangles.cpp", ["face_node_connectivity", "face_coordinates", "edge_face_connectivity"]),
     "SCRIP": ("scrip.cpp", ["grid_corner_lon", "grid_corner_lat"]),
     "ESMF": ("esmf.cpp", ["nodeCoords", "elementConn", "centerCoords", "polybreak_value"]),
-    "MPAS": ("mpas.cpp mpas_arrays.cpp", ["verticesOnCell", "edgesOnCell", "nEdgesOnCell", "kiteAreasOnVertex"]),
+    "MPAS": ("mpas.cpp mpas_arrays.cpp mpas_lists.cpp", ["verticesOnCell", "edgesOnCell", "nEdgesOnCell", "kiteAreasOnVertex"]),
     "ICON": ("icon.cpp", ["vertex_of_cell"]),
     "OASIS": ("oasis.cpp", ['".msk"']),
     "Exodus": ("exodus.cpp", ["connect1", "elem_num_map", "global_id"]),

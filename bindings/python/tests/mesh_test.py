@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes of models."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -60,6 +62,31 @@ def test_files_come_back(tmp_path):
     # Its blocks have the cells in another order.
     areas = rondel.CellSet.read(tmp_path / "exodus.nc").areas
     assert np.allclose(np.sort(areas), np.sort(mesh.cell_areas))
+
+
+@pytest.mark.parametrize(
+    ("name", "row"),
+    [("verticesOnCell", "cell"), ("cellsOnCell", "cell"), ("edgesOnVertex", "vertex")],
+)
+def test_lists_that_do_not_fit_are_told_and_made_again(tmp_path, name, row):
+    netcdf = pytest.importorskip("netCDF4")
+    mesh = rondel.mesh.from_points(sites())
+    mesh.to_mpas(tmp_path / "mesh.nc", kind="nc4")
+    with netcdf.Dataset(tmp_path / "mesh.nc", "a") as file:
+        rows = file[name][:]
+        first = rows[7].copy()
+        rows[7, :3] = first[[1, 2, 0]] if row == "vertex" else first[:3]  # begins elsewhere
+        file[name][:] = rows
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rondel.mesh.read(tmp_path / "mesh.nc")
+    for bad in (-5, 0, 99_999, rows[250, 0]):
+        with netcdf.Dataset(tmp_path / "mesh.nc", "a") as file:
+            rows[7, 1] = bad
+            file[name][:] = rows
+        with pytest.warns(UserWarning, match=f'"{name}" of {row} 7 does not fit to the cells and'):
+            again = rondel.mesh.read(tmp_path / "mesh.nc")
+        assert (again.vertices_on_cell == mesh.vertices_on_cell).all()
 
 
 @pytest.mark.parametrize("form", ["mpas", "ugrid", "scrip", "esmf", "exodus"])

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Compares the lists of an MPAS file that are not read with those that follow from the others. A
+// list may begin anywhere, and none is written as 0 or as one more than there are elements.
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "formats/mpas_places.h"
+#include "io/netcdf_reader.h"
+
+namespace rondel::formats {
+namespace {
+
+using Numbers = std::vector<std::int64_t>;
+
+// A list of a file: for each row the numbers from 1 that it should have, in any order, with 0 for
+// none.
+struct ListOfFile {
+  const char* name;
+  const char* row;  // "cell", "vertex"
+  std::size_t num_rows;
+  std::size_t longest;  // row
+  std::size_t end;      // the largest number that stands for an element
+  std::function<void(std::size_t, Numbers&)> expected;
+};
+
+template <class Row>
+void append_numbers(const Row& indices, Numbers& numbers) {
+  for (const Index index : indices) {
+    numbers.push_back(index == no_index ? 0 : std::int64_t{index} + 1);
+  }
+}
+
+// Returns the first row that has other numbers than expected; the number of rows if there is none.
+std::size_t first_other(const io::NetcdfReader& file, const io::VariableInFile& variable,
+                        const ListOfFile& list) {
+  constexpr std::size_t rows_at_once = 4096;
+  const std::size_t room = variable.num_values / list.num_rows;
+  Numbers read;
+  Numbers wanted;
+  for (std::size_t begin = 0; begin < list.num_rows; begin += rows_at_once) {
+    const std::size_t size = std::min(rows_at_once, list.num_rows - begin);
+    read.resize(size * room);
+    file.read_integers(variable, begin * room, read);
+    for (std::size_t i = 0; i < size; ++i) {
+      wanted.clear();
+      list.expected(begin + i, wanted);
+      const std::span<std::int64_t> found = std::span(read).subspan(i * room, wanted.size());
+      std::ranges::replace(found, static_cast<std::int64_t>(list.end) + 1, 0);
+      std::ranges::sort(found);
+      std::ranges::sort(wanted);
+      if (!std::ranges::equal(found, wanted)) return begin + i;
+    }
+  }
+  return list.num_rows;
+}
+
+}  // namespace
+
+std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh) {
+  const std::vector<std::uint64_t>& offsets = mesh.edges_on_cell.offsets;
+  const auto around_cell = [&](const std::vector<Index>& values) {
+    return [&](std::size_t i, Numbers& numbers) {
+      append_numbers(std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]), numbers);
+    };
+  };
+  const auto around_vertex = [&](std::size_t v, Numbers& numbers) {
+    append_numbers(mesh.edges_on_vertex[v], numbers);
+  };
+  std::size_t most_sides = 0;
+  for (std::size_t i = 0; i < mesh.num_cells(); ++i) {
+    most_sides = std::max<std::size_t>(most_sides, offsets[i + 1] - offsets[i]);
+  }
+  const ListOfFile lists[] = {
+      {"verticesOnCell", "cell", mesh.num_cells(), most_sides, mesh.num_vertices(),
+       around_cell(mesh.vertices_on_cell)},
+      {"cellsOnCell", "cell", mesh.num_cells(), most_sides, mesh.num_cells(),
+       around_cell(mesh.cells_on_cell)},
+      {"edgesOnVertex", "vertex", mesh.num_vertices(), 3, mesh.num_edges(), around_vertex}};
+  for (const ListOfFile& list : lists) {
+    const io::VariableInFile* const variable = file.find(list.name);
+    if (variable == nullptr || variable->num_values < list.longest * list.num_rows ||
+        variable->num_values % list.num_rows != 0) {
+      continue;
+    }
+    const std::size_t row = first_other(file, *variable, list);
+    if (row == list.num_rows) continue;
+    return "\"" + std::string(list.name) + "\" of " + list.row + ' ' + std::to_string(row) +
+           " does not fit to the cells and vertices of edges, of which it is made again";
+  }
+  return {};
+}
+
+}  // namespace rondel::formats
