@@ -36,8 +36,8 @@ struct Geometries {
 /// Reads features of one or several files, whose places are to be compared: those of .geojson or
 /// .json as read_polygons() does, with points, lines and collections of them as well, and sites of
 /// other formats (read_sites(), read_netcdf_sites()), each of which is a point; "-" is standard
-/// input as for read_sites(). Operands of
-/// combine() and relate() are the lines and the polygons of the tables.
+/// input as for read_sites(). Operands of combine() and relate() are the lines and the polygons of
+/// the tables.
 ///
 /// Straight lines in longitude and latitude of all files are divided into arcs together. What meets
 /// there meets on the sphere: a line along the border of a polygon stays on it, and a point on a

@@ -190,8 +190,8 @@ struct SiteTable {
 
 /// Reads sites from .csv .tsv .xyz .txt .npy .geojson, and by GDAL from .gpkg .fgb .shp .parquet:
 /// GDAL is loaded when such a file is read, and its absence is a FileError. "-" is standard input,
-/// if no format is named as GeoJSON where it begins with "{", or else as CSV. A file without sites gives an empty table; a file without bytes is
-/// an error.
+/// GeoJSON if it begins with "{" and no format is named, or else CSV. A file without sites gives an
+/// empty table; a file without bytes is an error.
 RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {},
                                 const Execution& execution = {});
 

@@ -84,7 +84,8 @@ std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMes
       {"edgesOnVertex", "vertex", mesh.num_vertices(), 3, mesh.num_edges(), around_vertex}};
   for (const ListOfFile& list : lists) {
     const io::VariableInFile* const variable = file.find(list.name);
-    if (variable == nullptr || variable->num_values < list.longest * list.num_rows ||
+    if (variable == nullptr || list.num_rows == 0 ||
+        variable->num_values < list.longest * list.num_rows ||
         variable->num_values % list.num_rows != 0) {
       continue;
     }

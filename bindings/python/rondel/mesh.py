@@ -159,7 +159,8 @@ def read(
     Warns
     -----
     UserWarning
-        If cells are masked (with their number), or one of several meshes was read.
+        If cells are masked (with their number), one of several meshes was read, or lists of MPAS
+        do not fit to the others and are made again.
 
     See Also
     --------
