@@ -103,10 +103,11 @@ bool is_triangle_mesh_file(const FileName& file) {
 bool is_ugrid_of_triangles(const FileName& file) {
   const system::Call call({});
   const FileName whole = file_and_variable(file).first;
-  if (whole.path == "-" || !is_netcdf_file(whole)) return false;
+  if (whole.path == "-" && whole.bytes == nullptr) return false;  // it can be read once
   try {
     io::FileBytes bytes(whole, true);
-    return formats::has_triangles_without_centers(io::NetcdfReader(bytes));
+    return io::is_netcdf(bytes.head()) &&
+           formats::has_triangles_without_centers(io::NetcdfReader(bytes));
   } catch (const FileError&) {
     return false;
   } catch (const io::BadValue&) {
