@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "formats/ocean_lines.h"
@@ -103,7 +104,10 @@ bool is_triangle_mesh_file(const FileName& file) {
 bool is_ugrid_of_triangles(const FileName& file) {
   const system::Call call({});
   const FileName whole = file_and_variable(file).first;
-  if (whole.path == "-" && whole.bytes == nullptr) return false;  // it can be read once
+  std::error_code error;
+  if (whole.bytes == nullptr && !std::filesystem::is_regular_file(whole.path, error)) {
+    return false;  // a pipe can be read once
+  }
   try {
     io::FileBytes bytes(whole, true);
     return io::is_netcdf(bytes.head()) &&
