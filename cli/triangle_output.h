@@ -19,7 +19,7 @@
 
 namespace rondel::cli {
 
-/// What an INPUT that is a mesh may be besides.
+/// The help of INPUT goes on with this where it may be triangles, too.
 inline constexpr const char* triangle_input_help =
     "\nOr triangles: .msh (Gmsh), .14 (ADCIRC's fort.14), .gr3 .ll (SCHISM), .2dm (SMS),\n"
     ".nc (UGRID without centers of faces), a folder of FESOM";

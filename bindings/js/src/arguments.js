@@ -3,7 +3,7 @@
 
 // Checks the arguments of users, and converts them to the arrays and structs that the module takes. An argument of the
 // wrong kind is a TypeError, a value that breaks its contract a RondelError; the message begins with the argument's name.
-// What the module checks by itself, that numbers are finite, is not looked at here again.
+// Numbers that are not finite are left to the module, which looks for them anyway.
 
 import { RondelError } from "./errors.js";
 

@@ -16,7 +16,7 @@ import { RondelError } from "../errors.js";
 const depths = { Point: 0, MultiPoint: 1, LineString: 1, MultiLineString: 2, Polygon: 2, MultiPolygon: 3 };
 
 /**
- * Where a geometry is in what was passed: "feature" 3. Messages begin with it.
+ * The place of a geometry in what was passed, such as "feature" 3: messages begin with it.
  * @typedef {{word: string, index: number}} Place
  */
 
