@@ -43,9 +43,11 @@ bool may_be_table(const FileName& file) {
          !is_netcdf_file(file_and_variable(file).first);
 }
 
+bool is_unnamed_input(const FileName& file) { return file.path == "-" && file.format.empty(); }
+
 // True if a file has fields with a delimiter between them; standard input is .csv by default.
 bool has_delimiter(const FileName& file) {
-  const std::string format = file.path == "-" && file.format.empty() ? "csv" : format_of(file);
+  const std::string format = is_unnamed_input(file) ? "csv" : format_of(file);
   return may_be_table(file) && (format == "csv" || format == "tsv");
 }
 
@@ -212,7 +214,7 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
 
 bool may_have_features(const FileName& file) {
   const std::string format = format_of(file);
-  return format == "geojson" || format == "json" || (file.path == "-" && file.format.empty());
+  return format == "geojson" || format == "json" || is_unnamed_input(file);
 }
 
 FileName CommonOptions::source_beside(const std::string& other) const {
