@@ -12,6 +12,7 @@
 
 #include "formats/mpas_places.h"
 #include "io/netcdf_reader.h"
+#include "system/parallel.h"
 
 namespace rondel::formats {
 namespace {
@@ -38,31 +39,34 @@ void append_numbers(const Row& indices, Numbers& numbers) {
 
 // Returns the first row that has other numbers than expected; the number of rows if there is none.
 std::size_t first_other(const io::NetcdfReader& file, const io::VariableInFile& variable,
-                        const ListOfFile& list) {
+                        const ListOfFile& list, unsigned threads) {
   constexpr std::size_t rows_at_once = 4096;
   const std::size_t room = variable.num_values / list.num_rows;
-  Numbers read;
-  Numbers wanted;
-  for (std::size_t begin = 0; begin < list.num_rows; begin += rows_at_once) {
-    const std::size_t size = std::min(rows_at_once, list.num_rows - begin);
-    read.resize(size * room);
+  std::vector<std::size_t> first(system::num_pieces(list.num_rows, rows_at_once), list.num_rows);
+  const auto compare = [&](std::size_t begin, std::size_t end) {
+    Numbers read((end - begin) * room);
+    Numbers wanted;
     file.read_integers(variable, begin * room, read);
-    for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       wanted.clear();
-      list.expected(begin + i, wanted);
-      const std::span<std::int64_t> found = std::span(read).subspan(i * room, wanted.size());
+      list.expected(i, wanted);
+      const auto found = std::span(read).subspan((i - begin) * room, wanted.size());
       std::ranges::replace(found, static_cast<std::int64_t>(list.end) + 1, 0);
       std::ranges::sort(found);
       std::ranges::sort(wanted);
-      if (!std::ranges::equal(found, wanted)) return begin + i;
+      if (std::ranges::equal(found, wanted)) continue;
+      first[begin / rows_at_once] = i;
+      return;
     }
-  }
-  return list.num_rows;
+  };
+  system::parallel_for(threads, list.num_rows, rows_at_once, compare);
+  return std::ranges::min(first);
 }
 
 }  // namespace
 
-std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh) {
+std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh,
+                            unsigned threads) {
   const std::vector<std::uint64_t>& offsets = mesh.edges_on_cell.offsets;
   const auto around_cell = [&](const std::vector<Index>& values) {
     return [&](std::size_t i, Numbers& numbers) {
@@ -89,7 +93,7 @@ std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMes
         variable->num_values % list.num_rows != 0) {
       continue;
     }
-    const std::size_t row = first_other(file, *variable, list);
+    const std::size_t row = first_other(file, *variable, list, threads);
     if (row == list.num_rows) continue;
     return "\"" + std::string(list.name) + "\" of " + list.row + ' ' + std::to_string(row) +
            " does not fit to the cells and vertices of edges, of which it is made again";

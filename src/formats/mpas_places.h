@@ -36,6 +36,7 @@ mesh::VoronoiMesh read_mpas_arrays(const io::NetcdfReader& file, const Execution
 // Returns a sentence on the first list of the file that read_mpas_arrays() does not read and that
 // has other cells, edges or vertices than the mesh; empty if there is none. Throws BadValue if a
 // list cannot be read.
-std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh);
+std::string remark_on_lists(const io::NetcdfReader& file, const mesh::VoronoiMesh& mesh,
+                            unsigned threads);
 
 }  // namespace rondel::formats

@@ -223,7 +223,8 @@ VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Ex
       remark = remark_on_fields(reader);
       if (formats::has_mpas_arrays(reader)) {
         arrays = formats::read_mpas_arrays(reader, execution);
-        if (remarks != nullptr) remark_on_arrays = formats::remark_on_lists(reader, *arrays);
+        if (remarks != nullptr)
+          remark_on_arrays = formats::remark_on_lists(reader, *arrays, execution.threads);
       } else {
         table = formats::cells_in(reader, bytes.name(), {});
       }

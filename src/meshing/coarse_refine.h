@@ -16,7 +16,7 @@
 namespace rondel::meshing {
 
 // Refines as mesh::refine() does, but no triangle of which all edges are shorter, as chords, than
-// what `small` returns at a corner. So water that is much narrower than long costs no more triangles
+// what `small` returns at a corner; an empty function: all are refined. So water that is much narrower than long costs no more triangles
 // than it has lengths of that size.
 mesh::RefinedMesh refine_coarsely(const ConstrainedTriangulation& given,
                                   std::span<const Index> regions,

@@ -528,30 +528,11 @@ RefinedMesh Refinement::result() const {
   return mesh;
 }
 
-// Throws InvalidInput if the arguments do not fit together.
-RefinedMesh refined(const ConstrainedTriangulation& given, std::span<const Index> regions,
-                    const RefineOptions& options, const SmallLength& small,
-                    const Execution& execution) {
-  if (regions.size() != given.triangulation.num_faces()) {
-    throw InvalidInput("there is one region for each face, not " + std::to_string(regions.size()) +
-                       " for " + std::to_string(given.triangulation.num_faces()) + " faces");
-  }
-  if (!(given.triangulation.sphere().center == Point{})) {
-    throw InvalidInput("triangles are refined around the origin only");
-  }
-  if (!(options.smallest_angle_deg >= 0 && options.smallest_angle_deg <= 33)) {
-    throw InvalidInput("the smallest angle is from 0 to 33 degrees, not " +
-                       system::shortest_text(options.smallest_angle_deg));
-  }
-  return Refinement(given, regions, options, small, execution).run();
-}
-
 }  // namespace
 
 RefinedMesh refine(const ConstrainedTriangulation& given, std::span<const Index> regions,
                    const RefineOptions& options, const Execution& execution) {
-  const system::Call call(execution);
-  return refined(given, regions, options, nullptr, execution);
+  return meshing::refine_coarsely(given, regions, options, nullptr, execution);
 }
 
 }  // namespace rondel::mesh
@@ -563,7 +544,19 @@ mesh::RefinedMesh refine_coarsely(const ConstrainedTriangulation& given,
                                   const mesh::RefineOptions& options,
                                   const std::function<double(const Point&)>& small,
                                   const Execution& execution) {
-  return mesh::refined(given, regions, options, small, execution);
+  const system::Call call(execution);
+  if (regions.size() != given.triangulation.num_faces()) {
+    throw InvalidInput("there is one region for each face, not " + std::to_string(regions.size()) +
+                       " for " + std::to_string(given.triangulation.num_faces()) + " faces");
+  }
+  if (!(given.triangulation.sphere().center == Point{})) {
+    throw InvalidInput("triangles are refined around the origin only");
+  }
+  if (!(options.smallest_angle_deg >= 0 && options.smallest_angle_deg <= 33)) {
+    throw InvalidInput("the smallest angle is from 0 to 33 degrees, not " +
+                       system::shortest_text(options.smallest_angle_deg));
+  }
+  return mesh::Refinement(given, regions, options, small, execution).run();
 }
 
 }  // namespace rondel::meshing
