@@ -70,21 +70,26 @@ rondel.mesh.scvt(100, density=2.0)
 """
 
 
-def checker():
-    """mypy, and the folder of the package."""
+PACKAGE = pathlib.Path(rondel.__file__).parent
+CONFIG = pathlib.Path(__file__).parents[3] / "pyproject.toml"
+
+
+@pytest.fixture(scope="module")
+def check(tmp_path_factory):
+    """A function that has mypy look at a path; what it knows of NumPy and others it learns once."""
     api = pytest.importorskip("mypy.api")
-    package = pathlib.Path(rondel.__file__).parent
-    if not (package / "_core.pyi").exists():
+    if not (PACKAGE / "_core.pyi").exists():
         pytest.skip("needs the target rondel_python_stub")
-    return api, package
+    cache = tmp_path_factory.mktemp("cache")
+    options = ["--config-file", str(CONFIG), "--cache-dir", str(cache)]
+    return lambda path: api.run([*options, str(path)])
 
 
-def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
-    api, package = checker()
+def test_programs_have_the_types_that_are_documented(check, tmp_path, monkeypatch):
     program = tmp_path / "program.py"
     program.write_text(PROGRAM, encoding="utf-8")
-    monkeypatch.setenv("MYPYPATH", str(package.parent))
-    out, _, _ = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(program)])
+    monkeypatch.setenv("MYPYPATH", str(PACKAGE.parent))
+    out, _, _ = check(program)
     said = out.replace("builtins.", "").splitlines()
     revealed = [line.split('"')[1] for line in said if "Revealed type" in line]
     assert revealed == [
@@ -110,10 +115,6 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
     ], out
 
 
-def test_the_package_has_the_types_that_it_says(tmp_path):
-    api, package = checker()
-    config = pathlib.Path(__file__).parents[3] / "pyproject.toml"
-    out, _, status = api.run(
-        ["--config-file", str(config), "--cache-dir", str(tmp_path), str(package)]
-    )
+def test_the_package_has_the_types_that_it_says(check):
+    out, _, status = check(PACKAGE)
     assert status == 0, out
