@@ -60,7 +60,7 @@ std::vector<double> netcdf_values(const SiteTable& table, const std::string& nam
     throw UsageError(text);
   }
   std::vector<double> values(table.sites.size());
-  file.read(0, 0, values);
+  file.read(0, 0, values, Execution{.threads = 1});
   return values;
 }
 

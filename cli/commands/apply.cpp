@@ -165,8 +165,9 @@ class ValuesAtSources {
   [[nodiscard]] const FieldSet& fields() const { return file_ ? file_->fields() : own_; }
   // Reads fields of an array from the first one on.
   // `values` has room for whole fields, one after another; missing values are NaN.
-  void read(std::size_t array, std::size_t first, std::span<double> values) const {
-    if (file_) return file_->read(array, first, values);
+  void read(std::size_t array, std::size_t first, std::span<double> values,
+            const Execution& execution) const {
+    if (file_) return file_->read(array, first, values, execution);
     std::ranges::copy(columns_[array], values.begin());
   }
 
@@ -264,7 +265,7 @@ void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights&
       const std::size_t count = std::min(of_slice, num_fields - first);
       values.resize(count * weights.num_columns);
       applied.resize(count * weights.num_rows());
-      in.read(a, first, values);
+      in.read(a, first, values, job.execution());
       job.time(Stage::query,
                [&] { apply(weights, values, applied, count, unfilled, job.execution()); });
       take(std::span<double>(applied));
@@ -304,7 +305,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it
   // is written only if there are none.
   out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
-  FieldWriter writer(options.common.target(), out, file.target, options.netcdf);
+  FieldWriter writer(options.common.target(), out, file.target, options.netcdf, job.execution());
   AppliedCounts counts;
   for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
     for (double& value : applied) {

@@ -143,7 +143,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
-  FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
+  FieldWriter writer(options.common.target(), out, targets.side, options.netcdf, job.execution());
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {

@@ -169,7 +169,9 @@ class FieldFile {
   /// \param array  its index in fields().arrays
   /// \param out  its size is a multiple of the number of points, which change fastest; NaN is
   ///             missing
-  RONDEL_API void read(std::size_t array, std::size_t first, std::span<double> out) const;
+  /// \param execution  how many threads decompress the chunks of netCDF-4
+  RONDEL_API void read(std::size_t array, std::size_t first, std::span<double> out,
+                       const Execution& execution = {}) const;
 
  private:
   struct OpenFields;
@@ -191,8 +193,9 @@ class FieldWriter {
  public:
   /// \param fields  the arrays without values, the axes with theirs; `fields` and `points` must
   ///                stay valid until finish()
+  /// \param execution  how many threads compress the chunks of netCDF-4
   RONDEL_API FieldWriter(const FileName& file, const FieldSet& fields, const WeightSide& points,
-                         const NetcdfOptions& netcdf = {});
+                         const NetcdfOptions& netcdf = {}, const Execution& execution = {});
   RONDEL_API ~FieldWriter();
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;

@@ -104,9 +104,11 @@ const FieldSet& FieldFile::fields() const {
   return content_->slices ? content_->slices->fields() : content_->fields;
 }
 
-void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out) const {
+void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out,
+                     const Execution& execution) const {
   if (content_->slices) {
-    io::in_file(content_->bytes.name(), [&] { content_->slices->read(array, first, out); });
+    io::in_file(content_->bytes.name(),
+                [&] { content_->slices->read(array, first, out, execution.threads); });
     return;
   }
   // Values of other formats are those of all fields, one after the other.
@@ -153,7 +155,7 @@ struct FieldWriter::BegunFields {
 };
 
 FieldWriter::FieldWriter(const FileName& file, const FieldSet& fields, const WeightSide& points,
-                         const NetcdfOptions& netcdf) {
+                         const NetcdfOptions& netcdf, const Execution& execution) {
   for (const Column& column : points.columns) {
     if (column.ends.size() == fields.num_points) continue;
     throw InvalidInput("column '" + column.name + "' has " + std::to_string(column.ends.size()) +
@@ -168,7 +170,8 @@ FieldWriter::FieldWriter(const FileName& file, const FieldSet& fields, const Wei
       io::require_format<FieldBeginning>(field_writers, file, "fields are written as");
   output_ = std::make_unique<BegunFields>(file);
   output_->sink = io::in_file(file.path, [&] {
-    return writer.begin(output_->file, {fields, points, io::with_kind(netcdf, file)});
+    return writer.begin(output_->file,
+                        {fields, points, io::with_kind(netcdf, file), execution.threads});
   });
 }
 

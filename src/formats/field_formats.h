@@ -41,6 +41,7 @@ struct FieldsToWrite {
   const FieldSet& fields;  // names, dimensions and attributes of the fields, without values
   const WeightSide& side;
   NetcdfOptions netcdf;
+  unsigned threads = 1;  // that compress
 };
 
 // Receives the values that FieldWriter is given, in the order of the fields, and writes them.

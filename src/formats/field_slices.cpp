@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -25,6 +26,7 @@
 #include "io/wide_integers.h"
 #include "rondel/delaunay.h"
 #include "system/message_text.h"
+#include "system/parallel.h"
 
 namespace rondel::formats {
 namespace {
@@ -488,16 +490,17 @@ void FieldSlices::add_axes(const io::VariableInFile& variable, const FieldDimens
 }
 
 // Fields are read one by one if points are left out, and otherwise several at once.
-void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out) const {
+void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out,
+                       unsigned threads) const {
   const SlicedVariable& source = sources_[array];
   const std::vector<std::size_t>& kept = source.layout.kept;
   if (kept.empty()) {
-    read_all_points(source, first + source.first, out);
+    read_all_points(source, first + source.first, out, threads);
     return;
   }
   std::vector<double> all(source.num_points);
   for (; !out.empty(); out = out.subspan(kept.size())) {
-    read_all_points(source, source.first + first++, all);
+    read_all_points(source, source.first + first++, all, threads);
     for (std::size_t i = 0; i < kept.size(); ++i) out[i] = all[kept[i]];
   }
 }
@@ -508,12 +511,12 @@ void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t 
   if (source.layout.kept.empty() && source.blocks.are_apart()) {
     const std::size_t begin = (field + source.first) * source.num_points + first_point;
     file_.read_numbers(*source.variable, begin, out);
-    unpack(source, out, first_point);
+    unpack(source, out, first_point, 1);
     return;
   }
   if (whole_.empty() || array_of_whole_ != array || field_of_whole_ != field) {
     whole_.resize(fields_.num_points);
-    read(array, field, whole_);
+    read(array, field, whole_, 1);
     array_of_whole_ = array;
     field_of_whole_ = field;
   }
@@ -523,11 +526,11 @@ void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t 
 // Fields that are contiguous in the file are read directly; others in blocks, of which the last one
 // is kept.
 void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
-                                  std::span<double> out) const {
+                                  std::span<double> out, unsigned threads) const {
   const std::size_t n = source.num_points;
   if (source.blocks.are_apart()) {
-    file_.read_numbers(*source.variable, first * n, out);
-    unpack(source, out);
+    io::read_run(file_, *source.variable, first * n, out, threads);
+    unpack(source, out, 0, threads);
     return;
   }
   while (!out.empty()) {
@@ -535,9 +538,9 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
     const std::size_t wanted = std::min(out.size() / n, block.first + block.count - first);
     const std::span<double> part = out.first(wanted * n);
     if (wanted == block.count) {
-      read_block(source, block, part);
+      read_block(source, block, part, threads);
     } else {
-      keep_block(source, block);
+      keep_block(source, block, threads);
       const auto begin = static_cast<std::ptrdiff_t>((first - block.first) * n);
       std::copy_n(block_.begin() + begin, part.size(), part.begin());
     }
@@ -547,20 +550,31 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
 }
 
 void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& block,
-                             std::span<double> out) const {
+                             std::span<double> out, unsigned threads) const {
   io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
-                    out);
-  unpack(source, out);
+                    out, threads);
+  unpack(source, out, 0, threads);
 }
 
-// Applies fill values, scale and offset to the numbers of the file. Infinite values are an error,
-// as in tables.
+// Applies fill values, scale and offset to the numbers of the file, some at a time, which stay in the
+// cache. Infinite values are an error, as in tables.
 void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
-                         std::size_t first_point) const {
-  source.rules.apply(values);
+                         std::size_t first_point, unsigned threads) const {
+  constexpr std::size_t per_piece = std::size_t{1} << 16U;
+  constexpr std::size_t at_a_time = std::size_t{1} << 11U;
+  std::atomic<bool> are_finite = true;
+  system::parallel_for(threads, values.size(), per_piece, [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; begin += at_a_time) {
+      const auto part = values.subspan(begin, std::min(at_a_time, end - begin));
+      source.rules.apply(part);
+      unsigned num_infinite = 0;  // without branches
+      for (const double value : part) num_infinite += std::isinf(value) ? 1U : 0U;
+      if (num_infinite > 0) are_finite = false;
+    }
+  });
+  if (are_finite) return;
   const auto infinite =
       std::ranges::find_if(values, [](double value) { return std::isinf(value); });
-  if (infinite == values.end()) return;
   throw io::BadValue(
       "variable " + io::in_quotes(source.variable->name) + ": value " +
       (*infinite > 0 ? "inf" : "-inf") + " at point " +
@@ -572,12 +586,13 @@ void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
            : ""));
 }
 
-void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {
+void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block,
+                             unsigned threads) const {
   if (source_of_block_ == &source && first_of_block_ == block.first) return;
   // If reading throws, the block must not be taken for a complete one.
   source_of_block_ = nullptr;
   block_.resize(block.count * source.num_points);
-  read_block(source, block, block_);
+  read_block(source, block, block_, threads);
   source_of_block_ = &source;
   first_of_block_ = block.first;
 }

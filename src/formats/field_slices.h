@@ -34,7 +34,7 @@ class FieldSlices {
   // Returns the arrays without their values; only coordinates along axes have values here.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
   // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
-  void read(std::size_t array, std::size_t first, std::span<double> out) const;
+  void read(std::size_t array, std::size_t first, std::span<double> out, unsigned threads) const;
   // Reads points `first_point` ... of one field, like FieldFile::read_points().
   void read_points(std::size_t array, std::size_t field, std::size_t first_point,
                    std::span<double> out) const;
@@ -85,16 +85,16 @@ class FieldSlices {
   void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
                 std::vector<FieldArray>& axes);
   // Reads fields `first` ... of a variable, as many as fit, with the points that are left out.
-  void read_all_points(const SlicedVariable& source, std::size_t first,
-                       std::span<double> out) const;
+  void read_all_points(const SlicedVariable& source, std::size_t first, std::span<double> out,
+                       unsigned threads) const;
   // Reads a whole block of fields into `out`, which has its size.
-  void read_block(const SlicedVariable& source, const FieldBlock& block,
-                  std::span<double> out) const;
+  void read_block(const SlicedVariable& source, const FieldBlock& block, std::span<double> out,
+                  unsigned threads) const;
   // Converts the numbers of the file in place: missing ones become NaN, packed ones are unpacked.
-  void unpack(const SlicedVariable& source, std::span<double> values,
-              std::size_t first_point = 0) const;
+  void unpack(const SlicedVariable& source, std::span<double> values, std::size_t first_point,
+              unsigned threads) const;
   // Reads a block into block_, unless it is there.
-  void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
+  void keep_block(const SlicedVariable& source, const FieldBlock& block, unsigned threads) const;
 
   const io::NetcdfReader& file_;
   FieldExtras extras_;

@@ -155,7 +155,7 @@ class NetcdfSink : public FieldSink {
         columns_(points_.is_one_dimension() ? std::span(job.side.columns)
                                             : std::span<const Column>()) {
     define(job);
-    out_.begin(job.netcdf);
+    out_.begin(job.netcdf, job.threads);
     for (const FieldArray& axis : job.fields.axes) {
       out_.write(std::span<const double>(axis.values));
     }

@@ -167,7 +167,7 @@ void add_columns(const FieldFile& file, std::span<const std::string> names, Netc
       continue;
     }
     array.values.resize(fields.num_points);
-    file.read(a, 0, array.values);
+    file.read(a, 0, array.values, Execution{.threads = 1});
     if (!names.empty()) array.name = names[a];
     sites.table.columns.push_back(column_of(array));
   }

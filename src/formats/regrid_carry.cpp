@@ -54,11 +54,12 @@ void deal_units(const RegridRanks& ranks, std::size_t first, std::size_t end,
 // are asked for if sources are between parallels, and otherwise once.
 class TileCarrier::SourceValues {
  public:
-  SourceValues(const ArrayToCarry& job, std::size_t first, std::size_t count)
+  SourceValues(const ArrayToCarry& job, std::size_t first, std::size_t count,
+               const Execution& execution)
       : job_(job), first_(first), components_(job.file.components(job.array)) {
     if (job.has_windows) return;
     whole_.resize(count * components_ * job.sources);
-    job.file.read(job.array, first, whole_);
+    job.file.read(job.array, first, whole_, execution);
     take_values_that_are_there(job.coincident, job.sources, whole_);
   }
   // Returns the values of all fields at all sources, unless they are read when they are asked for.
@@ -104,7 +105,7 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
   while (plan_.is_streamed && begin < tiles_.num_tiles() && out_.skip(tiles_.num_targets(begin))) {
     ++begin;
   }
-  SourceValues values(job_, first, count);
+  SourceValues values(job_, first, count, execution_);
   const std::size_t num_rows = count * job_.file.components(job_.array);
   std::vector<double> carried;
   if (ranks_.is_first() && !plan_.is_streamed) {

@@ -149,7 +149,7 @@ class RegridJob {
     const WeightSide side = target_.description(is_netcdf);
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
-      output.emplace(out_, written, side, options_.netcdf);
+      output.emplace(out_, written, side, options_.netcdf, execution_);
       if (options_.resume) output->keep(partial_name(), facts());
     } else {
       output.emplace();
@@ -404,19 +404,20 @@ class RegridJob {
     const auto end_of = [&](std::size_t slice) {
       return std::min(first_of(slice) + of_slice, num_fields);
     };
-    const auto read = [&](std::size_t slice) {
-      std::vector<double> values((end_of(slice) - first_of(slice)) * components_ * report_.sources);
-      vectors_->read(array, first_of(slice), values);
-      return values;
+    const auto read = [&](std::size_t slice, std::vector<double>& values) {
+      values.resize((end_of(slice) - first_of(slice)) * components_ * report_.sources);
+      vectors_->read(array, first_of(slice), values, execution_);
     };
     std::vector<double> carried;
     if (ranks_.size == 1) {
+      // The room of both is used again.
       std::vector<double> values;
       std::vector<double> next;
+      bool is_read = false;
       for (std::size_t slice = 0; slice < num_slices; ++slice) {
-        if (next.empty()) next = read(slice);
+        if (!is_read) read(slice, next);
         values.swap(next);
-        next.clear();
+        is_read = false;
         const auto carry_on = [&] {
           carried = vectors_->at_targets(array, carried_slice(values, method));
           output.write(carried);
@@ -424,7 +425,8 @@ class RegridJob {
         if (plan_.reads_ahead && slice + 1 < num_slices) {
           weights_of(method);  // before, as they may be read from the same file
           system::parallel_invoke(
-              execution_.threads, [&] { next = read(slice + 1); }, carry_on);
+              execution_.threads, [&] { read(slice + 1, next); }, carry_on);
+          is_read = true;
         } else {
           carry_on();
         }
@@ -435,7 +437,8 @@ class RegridJob {
     formats::deal_units(
         ranks_, 0, num_slices,
         [&](std::size_t slice) {
-          std::vector<double> values = read(slice);
+          std::vector<double> values;
+          read(slice, values);
           carried = vectors_->at_targets(array, carried_slice(values, method));
           system::announce(execution_, "regrid", end_of(slice), num_fields);
           const auto bytes = std::as_bytes(std::span<const double>(carried));

@@ -25,8 +25,8 @@ class RegridOutput {
   // The output of a process that does not write. Nothing is written to it.
   RegridOutput() = default;
   RegridOutput(const FileName& file, const FieldSet& fields, const WeightSide& points,
-               const NetcdfOptions& netcdf) {
-    writer_.emplace(file, fields, points, netcdf);
+               const NetcdfOptions& netcdf, const Execution& execution) {
+    writer_.emplace(file, fields, points, netcdf, execution);
   }
 
   // Keeps values in a journal beside the output from now on.

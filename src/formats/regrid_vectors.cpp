@@ -107,16 +107,17 @@ void RegridVectors::to_space(std::size_t first_point, std::span<double> out) con
 }
 
 // The two components of a field are read into the first two thirds of its room, and turned there.
-void RegridVectors::read(std::size_t array, std::size_t first, std::span<double> out) const {
+void RegridVectors::read(std::size_t array, std::size_t first, std::span<double> out,
+                         const Execution& execution) const {
   const VectorArrays* const pair = pair_of(array);
   if (pair == nullptr) {
-    file_.read(array, first, out);
+    file_.read(array, first, out, execution);
     return;
   }
   for (; !out.empty(); out = out.subspan(in_space * sources_), ++first) {
     const std::span<double> field = out.first(in_space * sources_);
-    file_.read(pair->east, first, field.first(sources_));
-    file_.read(pair->north, first, field.subspan(sources_, sources_));
+    file_.read(pair->east, first, field.first(sources_), execution);
+    file_.read(pair->north, first, field.subspan(sources_, sources_), execution);
     to_space(0, field);
   }
 }

@@ -52,7 +52,8 @@ class RegridVectors {
   // Returns how many fields stand for one of an array: 3, or 1 for an array that is no component.
   [[nodiscard]] std::size_t components(std::size_t array) const;
   // Reads fields of an array, as many as `out` has room for; those of vectors as x, y and z in turn.
-  void read(std::size_t array, std::size_t first, std::span<double> out) const;
+  void read(std::size_t array, std::size_t first, std::span<double> out,
+            const Execution& execution) const;
   // Does the same for some points of one field.
   void read_points(std::size_t array, std::size_t field, std::size_t first_point,
                    std::span<double> out) const;

@@ -162,7 +162,7 @@ class ZonalJob {
     const FieldSet written =
         fields_at_targets(in, std::move(arrays), source_, target_, options_.history);
     const WeightSide side = target_.description(is_netcdf_file(out));
-    RegridOutput output(out, written, side, options_.netcdf);
+    RegridOutput output(out, written, side, options_.netcdf, execution_);
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {
       compute(a, output);
       report_.fields += in.arrays[a].num_fields();
@@ -212,7 +212,7 @@ class ZonalJob {
       const std::size_t count = std::min(of_slice, num_fields - first);
       values.resize(count * report_.sources);
       numbers.resize(group.size() * count * report_.targets);
-      fields_->read(array, first, values);
+      fields_->read(array, first, values, execution_);
       zonal_statistics(pieces_, group, values, numbers, count, rules, execution_);
       take(first, std::span<const double>(numbers));
       system::announce(execution_, "regrid", first + count, num_fields);

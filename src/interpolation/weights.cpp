@@ -4,6 +4,7 @@
 #include "rondel/weights.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -60,12 +61,14 @@ void require_rows(const Weights& weights) {
     }
     throw InvalidInput("the offsets decrease", static_cast<std::size_t>(row));
   }
-  for (std::size_t k = 0; k < num_entries; ++k) {
-    if (weights.columns[k] < weights.num_columns) continue;
-    throw InvalidInput("column " + std::to_string(weights.columns[k]) + " of " +
-                           std::to_string(weights.num_columns),
-                       k);
-  }
+  Index largest = 0;  // compilers make vectors of this loop, and not of one that may end early
+  for (const Index column : weights.columns) largest = std::max(largest, column);
+  if (num_entries == 0 || largest < weights.num_columns) return;
+  const auto bad = std::ranges::find_if(
+      weights.columns, [&](Index column) { return column >= weights.num_columns; });
+  throw InvalidInput(
+      "column " + std::to_string(*bad) + " of " + std::to_string(weights.num_columns),
+      static_cast<std::size_t>(bad - weights.columns.begin()));
 }
 
 void require_finite_weights(const Weights& weights) {
@@ -113,30 +116,66 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
   return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
 }
 
-// False if a weight is not finite, of which no sum is.
-bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end, const double* in,
-                double* out, const ApplyOptions& options) {
+// The number of fields of which a row is summed at once: entries are loaded once for all of them, and
+// their sums do not wait for each other.
+constexpr std::size_t fields_together = 4;
+
+// Some fields of the same length, one after the other.
+template <class T>
+struct FieldRun {
+  T* begin;
+  std::size_t length;
+  [[nodiscard]] T* field(std::size_t f) const { return begin + f * length; }
+};
+
+// Applies some rows to so many fields. Returns false if a weight is not finite, of which no sum is.
+// Precondition: the weights are valid, so that the loop over entries goes without checks.
+template <std::size_t num_fields>
+bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end,
+                const FieldRun<const double>& in, const FieldRun<double>& out,
+                const ApplyOptions& options) {
   bool is_right = true;
+  const std::uint64_t* const offsets = weights.offsets.data();
+  const Index* const columns = weights.columns.data();
+  const double* const values = weights.values.data();
   const std::size_t num_entries = weights.columns.size();
   for (std::size_t r = begin; r < end; ++r) {
-    std::uint64_t k = weights.offsets[r];
-    const std::uint64_t last = weights.offsets[r + 1];
-    if (k == last) {
-      out[r] = options.fill;
-      continue;
+    const bool is_empty = offsets[r] == offsets[r + 1];
+    std::array<double, num_fields> sums{};
+    for (std::uint64_t k = offsets[r]; k < offsets[r + 1]; ++k) {
+      const Index next = columns[std::min(k + system::prefetch_distance, num_entries - 1)];
+      for (std::size_t f = 0; f < num_fields; ++f) {
+        system::prefetch(in.field(f) + next);
+        sums[f] += values[k] * in.field(f)[columns[k]];
+      }
     }
-    double sum = 0;
-    for (; k < last; ++k) {
-      const std::size_t ahead = k + system::prefetch_distance;
-      if (ahead < num_entries) system::prefetch(&in[weights.columns[ahead]]);
-      sum += weights.values[k] * in[weights.columns[k]];
+    for (std::size_t f = 0; f < num_fields; ++f) {
+      double sum = is_empty ? options.fill : sums[f];
+      if (!is_empty && !std::isfinite(sum)) {
+        is_right = is_right && are_finite(weights, r);
+        sum = sum_of_present(weights, r, in.field(f), options);
+      }
+      out.field(f)[r] = sum;
     }
-    if (!std::isfinite(sum)) {
-      is_right = is_right && are_finite(weights, r);
-      sum = sum_of_present(weights, r, in, options);
-    }
-    out[r] = sum;
   }
+  return is_right;
+}
+
+// Applies some rows to all fields, several at a time.
+bool apply_rows_to_all(const Weights& weights, std::size_t begin, std::size_t end,
+                       std::span<const double> in, std::span<double> out, std::size_t num_fields,
+                       const ApplyOptions& options) {
+  bool is_right = true;
+  const auto apply_to = [&]<std::size_t count>(std::size_t first) {
+    const FieldRun<const double> from{in.data() + first * weights.num_columns, weights.num_columns};
+    const FieldRun<double> to{out.data() + first * weights.num_rows(), weights.num_rows()};
+    is_right = apply_rows<count>(weights, begin, end, from, to, options) && is_right;
+  };
+  std::size_t first = 0;
+  for (; first + fields_together <= num_fields; first += fields_together) {
+    apply_to.template operator()<fields_together>(first);
+  }
+  for (; first < num_fields; ++first) apply_to.template operator()<1>(first);
   return is_right;
 }
 
@@ -240,15 +279,13 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
   if (num_fields == 0) require_finite_weights(weights);
   std::atomic<bool> are_right = true;
   // All fields of some rows, as long as these rows are in the cache.
-  system::parallel_for(execution.threads, weights.num_rows(), rows_per_piece,
-                       [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t f = 0; f < num_fields; ++f) {
-                           if (!apply_rows(weights, begin, end, in.data() + f * weights.num_columns,
-                                           out.data() + f * weights.num_rows(), options)) {
-                             are_right = false;
-                           }
-                         }
-                       });
+  system::parallel_for(
+      execution.threads, weights.num_rows(), rows_per_piece,
+      [&](std::size_t begin, std::size_t end) {
+        if (!apply_rows_to_all(weights, begin, end, in, out, num_fields, options)) {
+          are_right = false;
+        }
+      });
   if (!are_right) require_finite_weights(weights);
 }
 

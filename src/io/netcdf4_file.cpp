@@ -201,8 +201,10 @@ class Netcdf4Header {
 
 }  // namespace
 
+bool has_hdf5_at_begin(std::string_view head) { return head.starts_with(hdf5_signature); }
+
 bool is_hdf5(std::string_view head) {
-  if (head.starts_with(hdf5_signature)) return true;
+  if (has_hdf5_at_begin(head)) return true;
   for (std::size_t at = 512; at < head.size(); at *= 2) {
     if (head.substr(at).starts_with(hdf5_signature)) return true;
   }
@@ -211,8 +213,8 @@ bool is_hdf5(std::string_view head) {
 
 // The path is made absolute, so that it is never taken for an address in a network.
 Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
-  const std::string whole = std::filesystem::absolute(path).string();
-  number_ = opened(library_, [&](int& number) { return library_.open(whole.c_str(), 0, &number); });
+  path_ = std::filesystem::absolute(path).string();
+  number_ = opened(library_, [&](int& number) { return library_.open(path_.c_str(), 0, &number); });
 }
 
 Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
@@ -263,6 +265,14 @@ void Netcdf4File::take_chunk(const VariableInFile& variable,
   const int error = library_.chunks(variable.group, variable.number, &storage, chunk.data());
   if (error != 0 || storage != netcdf_in_chunks) return;
   for (std::size_t d = 0; d < lengths.size(); ++d) lengths[d] = std::max<std::size_t>(chunk[d], 1);
+}
+
+const Hdf5Chunks* Netcdf4File::chunks(const VariableInFile& variable) const {
+  if (path_.empty()) return nullptr;
+  const NetcdfLock lock(netcdf_library_lock());
+  const auto [at, is_new] = chunks_.try_emplace({variable.group, variable.number});
+  if (is_new) at->second = Hdf5Chunks::find(path_, variable);
+  return at->second.get();
 }
 
 void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,

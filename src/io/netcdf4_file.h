@@ -9,11 +9,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "io/hdf5_chunks.h"
 #include "io/netcdf_header.h"
 #include "io/netcdf_library.h"
 #include "io/netcdf_reader.h"
@@ -22,6 +26,8 @@ namespace rondel::io {
 
 // True if the first bytes contain the signature of HDF5, at offset 0, 512, 1024, 2048, ...
 bool is_hdf5(std::string_view head);
+// True if it is at offset 0.
+bool has_hdf5_at_begin(std::string_view head);
 
 // An open file. All calls of netCDF-C hold its lock, so that threads may share this object.
 class Netcdf4File {
@@ -44,6 +50,9 @@ class Netcdf4File {
   void read_box(const VariableInFile& variable, const NetcdfBox& box, std::span<double> out) const;
   // Sets the lengths of the variable's chunks, if it has chunks.
   void take_chunk(const VariableInFile& variable, std::span<std::uint64_t> lengths) const;
+  // Returns what reads the chunks of a variable by any number of threads; null if it has none, or
+  // they are of another kind. The object lives as long as this one.
+  [[nodiscard]] const Hdf5Chunks* chunks(const VariableInFile& variable) const;
   // Reads integers. Precondition: the variable has a type of integers.
   void read(const VariableInFile& variable, std::uint64_t begin, std::span<std::int64_t> out) const;
   void read_box(const VariableInFile& variable, const NetcdfBox& box,
@@ -56,6 +65,10 @@ class Netcdf4File {
  private:
   const NetcdfLibrary& library_;
   int number_ = 0;
+  std::string path_;  // empty if the file is in memory
+  // By the numbers of a group and of a variable, after the first call of chunks(); null: read by
+  // netCDF-C.
+  mutable std::map<std::pair<int, int>, std::unique_ptr<const Hdf5Chunks>> chunks_;
 };
 
 }  // namespace rondel::io

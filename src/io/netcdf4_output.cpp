@@ -21,9 +21,13 @@ namespace {
 
 using OutputLock = std::lock_guard<system::Mutex>;
 
-// The number of values in a chunk, which is small enough for HDF5's cache of 1 MiB and large enough
-// for zlib.
+// The number of values in a chunk, which is large enough for zlib.
 constexpr std::uint64_t values_of_chunk = std::uint64_t{1} << 16U;
+
+// The size of the cache of a variable's chunks. Values come in their order, so that a chunk is
+// complete soon and need not wait for the end of the file, where all that wait are compressed by one
+// thread while no other has work. NetCDF-C keeps back at most this many bytes of a variable.
+constexpr std::uint64_t size_of_cache = std::uint64_t{1} << 22U;
 
 // Returns the lengths of a chunk: the last dimensions as far as they fit, and as many indices of
 // the next one as fit.
@@ -37,10 +41,6 @@ std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) 
   }
   return lengths;
 }
-
-// NetCDF-C keeps back at most this many bytes of a variable: the size of its largest cache of
-// chunks.
-constexpr std::uint64_t max_kept_back = std::uint64_t{1} << 26U;
 
 // Returns the number of values in all chunks. Chunks at the end of a dimension are as long as the
 // others, which at most doubles a dimension.
@@ -79,8 +79,9 @@ std::uint64_t max_bytes_of_definitions(const Netcdf4Definitions& definitions) {
 
 }  // namespace
 
-Netcdf4Output::Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate)
-    : file_(file), library_(netcdf_library()) {
+Netcdf4Output::Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate,
+                             unsigned threads)
+    : file_(file), library_(netcdf_library()), deflate_(deflate), threads_(threads) {
   const std::string folder =
       file.is_direct() ? (std::filesystem::temp_directory_path() / "").string() : file.directory();
   try {
@@ -104,8 +105,8 @@ void Netcdf4Output::create(const std::string& name) {
   try {
     require_room();
     const OutputLock lock(netcdf_library_lock());
-    const std::string whole = std::filesystem::absolute(name).string();
-    const int error = library_.create(whole.c_str(), netcdf_create_netcdf4, &number_);
+    path_ = std::filesystem::absolute(name).string();
+    const int error = library_.create(path_.c_str(), netcdf_create_netcdf4, &number_);
     is_open_ = error == 0;
     require(error, "the file");
   } catch (...) {
@@ -130,7 +131,7 @@ void Netcdf4Output::require_room() {
     if (variable.num_bytes_handed == 0) continue;
     const std::uint64_t of_chunk = values_of_chunk * variable.size_of_value;
     kept_back += std::min(
-        {max_kept_back, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
+        {size_of_cache, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
   }
   const std::uint64_t needed = system::size_of(descriptor_) + kept_back;
   if (needed <= size_with_room_) return;
@@ -159,8 +160,9 @@ void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
   for (const NetcdfAttribute& attribute : definitions.attributes) put(netcdf_whole_file, attribute);
   for (const NetcdfVariable& variable : definitions.variables) {
     std::vector<int> own;
-    DefinedVariable output{0, variable.name, size_of(variable.type), {}, 0, 0};
+    DefinedVariable output{0, variable.name, size_of(variable.type), {}, 0, 0, false, nullptr};
     for (const std::size_t dimension : variable.dimensions) {
+      output.is_unlimited = output.is_unlimited || definitions.dimensions[dimension].is_unlimited;
       own.push_back(dimensions[dimension]);
       output.shape.push_back(definitions.dimensions[dimension].size);
     }
@@ -169,6 +171,18 @@ void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
     define_variable(variable, own, deflate);
   }
   require(library_.end_definitions(number_), "the definitions");
+  for (std::size_t v = 0; v < variables_.size(); ++v) open_chunks(v);
+}
+
+void Netcdf4Output::open_chunks(std::size_t variable) {
+  DefinedVariable& output = variables_[variable];
+  const std::vector<std::size_t> lengths = chunk_lengths(output.shape);
+  std::uint64_t of_chunk = output.size_of_value;
+  for (const std::size_t length : lengths) of_chunk *= length;
+  if (deflate_ == 0 || output.num_bytes_stored <= of_chunk) return;
+  output.chunks = Hdf5ChunkWriter::open({path_, output.name, output.shape, lengths,
+                                         output.size_of_value, deflate_, output.is_unlimited},
+                                        threads_);
 }
 
 void Netcdf4Output::define_variable(const NetcdfVariable& variable,
@@ -182,6 +196,9 @@ void Netcdf4Output::define_variable(const NetcdfVariable& variable,
   if (!dimensions.empty()) {
     const std::vector<std::size_t> chunks = chunk_lengths(output.shape);
     require(library_.set_chunks(number_, output.number, 0, chunks.data()), what);
+    constexpr std::size_t slots = 1009;  // a prime number, as HDF5 wants it
+    constexpr float first_out = 0.75F;   // how much sooner a complete chunk leaves than others
+    require(library_.set_cache(number_, output.number, size_of_cache, slots, first_out), what);
     if (deflate > 0) {
       const int shuffle = 1;  // bytes of the same weight together
       require(library_.set_deflate(number_, output.number, shuffle, 1, deflate), what);
@@ -210,6 +227,11 @@ void Netcdf4Output::write(std::size_t variable, std::uint64_t begin, std::size_t
   const char* const bytes = static_cast<const char*>(values);
   output.num_bytes_handed += size * output.size_of_value;
   require_room();
+  if (output.chunks != nullptr) {
+    if (output.chunks->write(values, size)) return;
+    throw FileError(file_.path() + ": variable " + in_quotes(output.name) +
+                    ": HDF5 cannot write it");
+  }
   const OutputLock lock(netcdf_library_lock());
   for_each_slab(output.shape, begin, size,
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
@@ -222,6 +244,7 @@ void Netcdf4Output::write(std::size_t variable, std::uint64_t begin, std::size_t
 void Netcdf4Output::finish() {
   {
     const OutputLock lock(netcdf_library_lock());
+    for (DefinedVariable& variable : variables_) variable.chunks.reset();
     is_open_ = false;
     require(library_.close(number_), "the end of the file");
   }
@@ -240,6 +263,7 @@ void Netcdf4Output::finish() {
 void Netcdf4Output::close() {
   if (is_open_) {
     const OutputLock lock(netcdf_library_lock());
+    for (DefinedVariable& variable : variables_) variable.chunks.reset();
     library_.close(number_);
     is_open_ = false;
   }

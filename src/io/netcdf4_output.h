@@ -11,10 +11,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "io/hdf5_chunk_writer.h"
 #include "io/netcdf_format.h"
 #include "io/netcdf_library.h"
 
@@ -32,7 +34,7 @@ struct Netcdf4Definitions {
 // end.
 //
 // Variables are divided into chunks of runs of values, so that values can be written in their
-// order, each chunk once.
+// order, each chunk once. Several threads compress chunks of variables that have several.
 //
 // HDF5 keeps data back until the file is closed, and where it cannot write them then, some versions
 // (1.10) leave a file behind that crashes the process when it ends. So there is room on the disk
@@ -41,7 +43,8 @@ struct Netcdf4Definitions {
 class Netcdf4Output {
  public:
   // Throws FileError with the name of the target, and BadValue where netCDF-C is not there.
-  Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate);
+  Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate,
+                unsigned threads);
   ~Netcdf4Output();
   Netcdf4Output(const Netcdf4Output&) = delete;
   Netcdf4Output& operator=(const Netcdf4Output&) = delete;
@@ -54,6 +57,8 @@ class Netcdf4Output {
  private:
   void create(const std::string& name);
   void define(const Netcdf4Definitions& definitions, int deflate);
+  // Opens what compresses chunks of a variable, if it has several.
+  void open_chunks(std::size_t variable);
   void define_variable(const NetcdfVariable& variable, const std::vector<int>& dimensions,
                        int deflate);
   void put(int variable, const NetcdfAttribute& attribute);
@@ -72,10 +77,15 @@ class Netcdf4Output {
     std::vector<std::uint64_t> shape;
     std::uint64_t num_bytes_stored;  // in whole chunks
     std::uint64_t num_bytes_handed;
+    bool is_unlimited;                        // a dimension may grow
+    std::unique_ptr<Hdf5ChunkWriter> chunks;  // null: netCDF-C compresses
   };
 
   AtomicFile& file_;
   const NetcdfLibrary& library_;
+  int deflate_;
+  unsigned threads_;
+  std::string path_;  // by which netCDF-C knows the file
   int descriptor_ = -1;
   int number_ = 0;
   bool is_open_ = false;

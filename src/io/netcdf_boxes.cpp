@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include "io/netcdf4_file.h"
+#include "io/netcdf_slabs.h"
 #include "io/wide_integers.h"
+#include "system/parallel.h"
 
 namespace rondel::io {
 namespace {
@@ -75,10 +79,39 @@ BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint6
   return lengths;
 }
 
+// The pieces of a box, numbered with the last dimension varying fastest.
+class BoxPieces {
+ public:
+  BoxPieces(const NetcdfBox& box, BoxLengths lengths) : box_(box), lengths_(std::move(lengths)) {
+    for (std::size_t d = 0; d < lengths_.size(); ++d) {
+      along_.push_back((box.count[d] + lengths_[d] - 1) / lengths_[d]);
+      size_ *= along_[d];
+    }
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] NetcdfBox piece(std::size_t number) const {
+    NetcdfBox piece{box_.start, lengths_};
+    for (std::size_t d = lengths_.size(); d-- > 0;) {
+      const std::size_t begin = number % along_[d] * lengths_[d];
+      number /= along_[d];
+      piece.start[d] += begin;
+      piece.count[d] = std::min(lengths_[d], box_.count[d] - begin);
+    }
+    return piece;
+  }
+
+ private:
+  const NetcdfBox& box_;
+  BoxLengths lengths_;
+  BoxLengths along_;  // the number of pieces along each dimension
+  std::size_t size_ = 1;
+};
+
 }  // namespace
 
 void read_in_order(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box,
-                   std::span<const std::size_t> order, std::span<double> out,
+                   std::span<const std::size_t> order, std::span<double> out, unsigned threads,
                    std::size_t max_per_piece) {
   const std::size_t rank = order.size();
   if (rank == 0 || out.empty()) {
@@ -90,33 +123,42 @@ void read_in_order(const NetcdfReader& file, const VariableInFile& variable, con
   const BoxLengths steps_in_order = steps_of(ordered);
   BoxLengths out_steps(rank);
   for (std::size_t w = 0; w < rank; ++w) out_steps[order[w]] = steps_in_order[w];
-  const BoxLengths most = lengths_of_pieces(box.count, file.chunk_of(variable), max_per_piece);
-  std::vector<double> values;
-  NetcdfBox piece{box.start, most};
-  std::size_t out_begin = 0;
-  for (;;) {
-    for (std::size_t d = 0; d < rank; ++d) {
-      piece.count[d] = std::min(most[d], box.start[d] + box.count[d] - piece.start[d]);
-    }
-    values.resize(num_values_of(piece.count));
+  const std::size_t most = file.begins_with_chunk(variable, box) ? 1 : max_per_piece;
+  const BoxPieces pieces(box, lengths_of_pieces(box.count, file.chunk_of(variable), most));
+  const auto read = [&](const NetcdfBox& piece) {
+    double* begin = out.data();
+    for (std::size_t d = 0; d < rank; ++d) begin += (piece.start[d] - box.start[d]) * out_steps[d];
+    if (file.read_chunk(variable, piece, {begin, out_steps})) return;
+    std::vector<double> values(num_values_of(piece.count));
     file.read_box(variable, piece, values);
     const BoxLengths steps = steps_of(piece.count);
     const std::size_t step = steps[order.back()];
     const std::size_t length = piece.count[order.back()];
     for_each_row(piece.count, order, steps, out_steps, [&](std::size_t from, std::size_t to) {
-      double* const row = out.data() + out_begin + to;
+      double* const row = begin + to;
       for (std::size_t i = 0; i < length; ++i) row[i] = values[from + i * step];
     });
-    std::size_t d = rank;
-    for (;;) {
-      if (d-- == 0) return;
-      piece.start[d] += piece.count[d];
-      out_begin += piece.count[d] * out_steps[d];
-      if (piece.start[d] < box.start[d] + box.count[d]) break;
-      out_begin -= box.count[d] * out_steps[d];
-      piece.start[d] = box.start[d];
-    }
+  };
+  system::parallel_for(threads, pieces.size(), 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t k = first; k < end; ++k) read(pieces.piece(k));
+  });
+}
+
+void read_run(const NetcdfReader& file, const VariableInFile& variable, std::uint64_t begin,
+              std::span<double> out, unsigned threads) {
+  const std::size_t rank = variable.shape.size();
+  const std::vector<std::uint64_t> chunk = file.chunk_of(variable);
+  if (std::ranges::all_of(chunk, [](std::uint64_t length) { return length == 1; })) {
+    file.read_numbers(variable, begin, out);
+    return;
   }
+  BoxLengths order(rank);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for_each_slab(
+      variable.shape, begin, out.size(),
+      [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
+        read_in_order(file, variable, {start, count}, order, out.subspan(offset, size), threads);
+      });
 }
 
 namespace {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "io/netcdf_reader.h"
@@ -21,10 +22,15 @@ inline constexpr std::size_t usual_piece = std::size_t{1} << 20U;
 // Reads the numbers of a box with its dimensions in another order: order[k] is the dimension of the
 // variable that comes at position k, and the last one varies fastest in `out`. The box is read in
 // pieces of about `max_per_piece` values, which consist of whole chunks if the file is divided into
-// chunks. Throws BadValue like NetcdfReader::read_numbers(). Precondition: the box lies in the
-// variable, and `out` has its size.
+// chunks; several threads decompress one each. Throws BadValue like NetcdfReader::read_numbers().
+// Precondition: the box lies in the variable, and `out` has its size.
 void read_in_order(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box,
-                   std::span<const std::size_t> order, std::span<double> out,
+                   std::span<const std::size_t> order, std::span<double> out, unsigned threads,
                    std::size_t max_per_piece = usual_piece);
+
+// Reads what NetcdfReader::read_numbers() reads, and throws what it does; several threads decompress
+// a chunk each.
+void read_run(const NetcdfReader& file, const VariableInFile& variable, std::uint64_t begin,
+              std::span<double> out, unsigned threads);
 
 }  // namespace rondel::io

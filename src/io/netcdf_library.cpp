@@ -58,6 +58,7 @@ bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   from.get(netcdf.put_text, "nc_put_att_text");
   from.get(netcdf.put_numbers, "nc_put_att_double");
   from.get(netcdf.set_chunks, "nc_def_var_chunking");
+  from.get(netcdf.set_cache, "nc_set_var_chunk_cache");
   from.get(netcdf.set_deflate, "nc_def_var_deflate");
   from.get(netcdf.set_fill, "nc_def_var_fill");
   from.get(netcdf.end_definitions, "nc_enddef");
@@ -72,17 +73,22 @@ system::Mutex& netcdf_library_lock() {
   return lock;
 }
 
+void* netcdf_library_address() {
+  static void* const library = system::find_library(
+      {.variable = "RONDEL_NETCDF",
+       .soname = "libnetcdf.so.",
+       .newest = 40,
+       .oldest = 11,  // netCDF-C 4.4
+       .others = {"libnetcdf.so", "libnetcdf.dylib", "/opt/homebrew/lib/libnetcdf.dylib",
+                  "/usr/local/lib/libnetcdf.dylib", "netcdf.dll", "libnetcdf.dll"},
+       .preferred = named_netcdf_library()});
+  return library;
+}
+
 const NetcdfLibrary& netcdf_library() {
   static NetcdfLibrary netcdf{};
   static const bool is_loaded = [] {
-    void* const library = system::find_library(
-        {.variable = "RONDEL_NETCDF",
-         .soname = "libnetcdf.so.",
-         .newest = 40,
-         .oldest = 11,  // netCDF-C 4.4
-         .others = {"libnetcdf.so", "libnetcdf.dylib", "/opt/homebrew/lib/libnetcdf.dylib",
-                    "/usr/local/lib/libnetcdf.dylib", "netcdf.dll", "libnetcdf.dll"},
-         .preferred = named_netcdf_library()});
+    void* const library = netcdf_library_address();
     return library != nullptr && load_netcdf(library, netcdf);
   }();
   if (!is_loaded) {

@@ -48,6 +48,7 @@ struct NetcdfLibrary {
   int (*put_text)(int, int, const char*, std::size_t, const char*);
   int (*put_numbers)(int, int, const char*, int, std::size_t, const double*);
   int (*set_chunks)(int, int, int, const std::size_t*);
+  int (*set_cache)(int, int, std::size_t, std::size_t, float);
   int (*set_deflate)(int, int, int, int, int);
   int (*set_fill)(int, int, int, const void*);
   int (*end_definitions)(int);
@@ -60,6 +61,9 @@ system::Mutex& netcdf_library_lock();
 // Returns the library that the environment variable RONDEL_NETCDF or set_netcdf_library() names, or
 // else the newest one that the system finds. Throws BadValue if there is none.
 const NetcdfLibrary& netcdf_library();
+
+// Returns the address by which its symbols are found; null if there is none.
+void* netcdf_library_address();
 
 // Throws BadValue with the library's message if `error` is the number of an error.
 void require_netcdf(const NetcdfLibrary& library, int error);

@@ -264,6 +264,24 @@ std::vector<std::uint64_t> NetcdfReader::chunk_of(const VariableInFile& variable
   return lengths;
 }
 
+// HDF5 counts from its signature, so that this is only for files that begin with it.
+const Hdf5Chunks* NetcdfReader::chunks_of(const VariableInFile& variable) const {
+  if (netcdf4_ == nullptr || file_ == nullptr || !has_hdf5_at_begin(file_->head())) return nullptr;
+  return netcdf4_->chunks(variable);
+}
+
+bool NetcdfReader::begins_with_chunk(const VariableInFile& variable, const NetcdfBox& box) const {
+  constexpr std::size_t least_values = 1024;
+  const Hdf5Chunks* const chunks = chunks_of(variable);
+  return chunks != nullptr && chunks->num_values() >= least_values && chunks->is_begin(box.start);
+}
+
+bool NetcdfReader::read_chunk(const VariableInFile& variable, const NetcdfBox& box,
+                              const BoxPlace& out) const {
+  const Hdf5Chunks* const chunks = chunks_of(variable);
+  return chunks != nullptr && chunks->is_chunk(box) && chunks->read(*file_, box, out);
+}
+
 void NetcdfReader::require_numbers(const VariableInFile& variable) {
   if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
 }

@@ -22,8 +22,15 @@
 
 namespace rondel::io {
 
+class Hdf5Chunks;
 class Netcdf4File;
 struct NetcdfHeader;
+
+// Where the values of a box go: value (i, j, ...) of the box to begin[i * steps[0] + j * steps[1] + ...].
+struct BoxPlace {
+  double* begin;
+  std::span<const std::size_t> steps;
+};
 
 // A box of a variable: `count[d]` indices from `start[d]` on along each dimension d.
 struct NetcdfBox {
@@ -105,6 +112,12 @@ class NetcdfReader {
   // Returns the lengths of the compressed chunks along the variable's dimensions; 1 if there are
   // none.
   [[nodiscard]] std::vector<std::uint64_t> chunk_of(const VariableInFile& variable) const;
+  // True if read_chunk() reads the chunks at the begin of this box, and one is worth a call.
+  [[nodiscard]] bool begins_with_chunk(const VariableInFile& variable, const NetcdfBox& box) const;
+  // Reads a whole chunk of a compressed variable beside other threads that do the same. Returns false
+  // if the box is no chunk, or only netCDF-C can read it; then `out` may have been written, and
+  // read_box() reads the values or throws.
+  bool read_chunk(const VariableInFile& variable, const NetcdfBox& box, const BoxPlace& out) const;
   // Returns all values as integers. Throws BadValue if they are a text, floating-point numbers, or
   // 2^63 or more.
   [[nodiscard]] std::vector<std::int64_t> integers(const VariableInFile& variable) const;
@@ -115,6 +128,8 @@ class NetcdfReader {
   // Parses a classic header and places the variables in the file.
   void parse(std::string_view head);
   static void require_numbers(const VariableInFile& variable);
+  // Returns what reads its chunks; null if only netCDF-C does.
+  [[nodiscard]] const Hdf5Chunks* chunks_of(const VariableInFile& variable) const;
   // Returns the offset in the file of a value, by its number in the variable.
   [[nodiscard]] std::uint64_t place(const VariableInFile& variable, std::uint64_t index) const;
   // Reads integers of 64 bits, uint64 as bits.

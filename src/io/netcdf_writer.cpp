@@ -283,7 +283,7 @@ void NetcdfWriter::begin(int version) {
   end_full_variables();
 }
 
-void NetcdfWriter::begin(const NetcdfOptions& options) {
+void NetcdfWriter::begin(const NetcdfOptions& options, unsigned threads) {
   switch (options.kind) {
     case NetcdfKind::by_name:
       begin(0);
@@ -296,7 +296,8 @@ void NetcdfWriter::begin(const NetcdfOptions& options) {
       break;
     case NetcdfKind::netcdf4:
       netcdf4_ = std::make_unique<Netcdf4Output>(
-          file_, Netcdf4Definitions{dimensions_, attributes_, variables_}, options.deflate);
+          file_, Netcdf4Definitions{dimensions_, attributes_, variables_}, options.deflate,
+          threads);
       end_full_variables();
       break;
   }

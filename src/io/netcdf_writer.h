@@ -63,9 +63,9 @@ class NetcdfWriter {
   // BadValue if the version does not suffice.
   void begin(int version = 0);
   // Writes a header of the kind that the options name; if they name none, of the lowest classic
-  // format that can hold the variables. Also throws BadValue if netCDF-C is needed and not
-  // installed.
-  void begin(const NetcdfOptions& options);
+  // format that can hold the variables. So many threads compress. Also throws BadValue if netCDF-C is
+  // needed and not installed.
+  void begin(const NetcdfOptions& options, unsigned threads = 1);
 
   // Writes the next values of the variable. T must be its type: char, int8_t, int32_t, int64_t,
   // float or double.

@@ -114,7 +114,7 @@ void test_box(ByteSource& source, const NetcdfReader& file, const WrittenArray& 
     wanted.push_back(array.values[at]);
   }
   Values found(size);
-  io::read_in_order(file, file.require("v"), box, order, found, 1 + source.byte());
+  io::read_in_order(file, file.require("v"), box, order, found, 1, 1 + source.byte());
   require_same(found, wanted, "a box has its values, in its order");
 }
 

@@ -90,7 +90,7 @@ Doubles fields_of(const io::NetcdfReader& file, std::size_t max_per_block, std::
   Doubles all(num_fields * num_points);
   for (std::size_t first = 0; first < num_fields; first += together) {
     const std::size_t count = std::min(together, num_fields - first);
-    slices.read(0, first, std::span(all).subspan(first * num_points, count * num_points));
+    slices.read(0, first, std::span(all).subspan(first * num_points, count * num_points), 1);
   }
   return all;
 }
@@ -133,7 +133,7 @@ TEST(field_slices, are_single_fields_by_their_place_or_name) {
     EXPECT_EQ(array.num_fields(), 1U);
     EXPECT_EQ(array.name, "t_2_1");
     Doubles values(num_points);
-    slices.read(0, 0, values);
+    slices.read(0, 0, values, 2);
     return values;
   };
   Doubles wanted;
@@ -200,7 +200,7 @@ TEST(netcdf_boxes, are_read_in_any_order_and_in_pieces_of_any_size) {
         }
         for (const std::size_t most : {std::size_t{7}, io::usual_piece}) {
           Doubles found(wanted.size());
-          io::read_in_order(file, variable, box, order, found, most);
+          io::read_in_order(file, variable, box, order, found, 1, most);
           EXPECT_EQ(found, wanted);
         }
       } while (std::ranges::next_permutation(order).found);

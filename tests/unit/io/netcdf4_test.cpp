@@ -148,7 +148,7 @@ TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
   for (const std::size_t most : {1U, 100U, 65'000U, 70'000U, 1U << 20U}) {
     const io::NetcdfBox box{{7, 40}, {280, 30}};
     Doubles found(std::size_t{280} * 30);
-    io::read_in_order(reader, v, box, std::vector<std::size_t>{1, 0}, found, most);
+    io::read_in_order(reader, v, box, std::vector<std::size_t>{1, 0}, found, 1, most);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const std::size_t row = 7 + i % 280;
       const std::size_t column = 40 + i / 280;
@@ -166,6 +166,44 @@ TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
   bool is_rounded = false;
   EXPECT_EQ(reader.rounded_numbers(reader.require("wide"), is_rounded), (Doubles{-5, 0x1p52, 7}));
   EXPECT_FALSE(is_rounded);
+}
+
+// With an HDF5 that does not say where chunks are there is nothing to test.
+TEST_F(netcdf4, has_chunks_that_are_read_without_the_library) {
+  io::FileBytes on_disk(path_);
+  const NetcdfReader reader(on_disk);
+  const io::VariableInFile& v = reader.require("v");
+  const std::size_t of_chunk = 65536 / num_columns;
+  EXPECT_FALSE(reader.begins_with_chunk(v, {{1, 0}, {of_chunk, num_columns}}));
+  EXPECT_FALSE(NetcdfReader(bytes_).begins_with_chunk(v, {{0, 0}, {of_chunk, num_columns}}));
+  if (!reader.begins_with_chunk(v, {{0, 0}, {of_chunk, num_columns}})) {
+    GTEST_SKIP() << "HDF5 is too old";
+  }
+  Doubles found(values_.size(), -1);
+  const std::vector<std::size_t> steps = {num_columns, 1};
+  const auto read = [&](std::size_t start, std::size_t count) {
+    return reader.read_chunk(v, {{start, 0}, {count, num_columns}},
+                             {found.data() + start * num_columns, steps});
+  };
+  EXPECT_FALSE(read(0, of_chunk - 1));
+  EXPECT_FALSE(read(1, of_chunk));
+  EXPECT_EQ(found, Doubles(values_.size(), -1));
+  EXPECT_TRUE(read(of_chunk, num_rows - of_chunk));  // the last one, which goes beyond the rows
+  EXPECT_EQ(found[of_chunk * num_columns - 1], -1);
+  EXPECT_TRUE(read(0, of_chunk));
+  EXPECT_EQ(found, values_);
+  for (const unsigned threads : {1U, 2U, 5U}) {
+    Doubles run(values_.size() - 7);
+    io::read_run(reader, v, 7, run, threads);
+    EXPECT_TRUE(std::equal(run.begin(), run.end(), values_.begin() + 7));
+  }
+  // Columns first: a chunk goes to places that are a column apart.
+  Doubles turned(values_.size());
+  io::read_in_order(reader, v, {{0, 0}, {num_rows, num_columns}}, std::vector<std::size_t>{1, 0},
+                    turned, 2);
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    ASSERT_EQ(turned[i], values_[i % num_rows * num_columns + i / num_rows]) << i;
+  }
 }
 
 }  // namespace

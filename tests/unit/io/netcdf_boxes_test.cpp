@@ -167,7 +167,7 @@ TEST(netcdf_boxes, have_their_dimensions_in_any_order) {
         for (int i = 0; i < 2; ++i) {
           const std::vector<double> expected = file.copy(box, order);
           std::vector<double> found(expected.size());
-          io::read_in_order(reader, reader.require("v"), box, order, found, most);
+          io::read_in_order(reader, reader.require("v"), box, order, found, 2, most);
           EXPECT_EQ(found, expected) << ::testing::PrintToString(order) << " in pieces of " << most;
           box = {std::vector<std::size_t>(shape.size(), 0), {shape.begin(), shape.end()}};
         }
@@ -180,12 +180,12 @@ TEST(netcdf_boxes, of_no_dimensions_are_one_number) {
   const BoxFile file({});
   const NetcdfReader reader(file.bytes);
   std::vector<double> found = {-5};
-  io::read_in_order(reader, reader.require("first"), {}, {}, found);
+  io::read_in_order(reader, reader.require("first"), {}, {}, found, 1);
   EXPECT_EQ(found, std::vector<double>{-1});
   const BoxFile other({3, 2});
   const NetcdfReader of_other(other.bytes);
   io::read_in_order(of_other, of_other.require("v"), {{0, 0}, {0, 2}},
-                    std::vector<std::size_t>{1, 0}, {});
+                    std::vector<std::size_t>{1, 0}, {}, 1);
 }
 
 }  // namespace

@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/hdf5_chunks.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "io/hdf5_library.h"
+#include "system/checked_product.h"
+
+namespace rondel::io {
+namespace {
+
+// HDF5 finds a chunk by its number by looking at all before it, so that variables with more are left
+// to netCDF-C.
+constexpr unsigned long long most_chunks = 1ULL << 13U;
+
+// A chunk that claims to be larger is left to netCDF-C.
+constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 30U;
+
+// How the bytes of a chunk's values are arranged: byte b of value i is at i * value + b * byte.
+struct ByteOrder {
+  std::size_t value;
+  std::size_t byte;
+  bool is_big_endian;
+};
+
+// The unsigned integers with as many bits as a number.
+template <class T>
+using BitsOf = std::conditional_t<
+    sizeof(T) == 1, std::uint8_t,
+    std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                       std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+
+// Returns the bits of a number from its bytes, which are `step` apart, the least significant one first.
+template <class Bits, class Step>
+Bits gathered(const unsigned char* bytes, Step step) {
+  Bits bits = 0;
+  for (std::size_t b = 0; b < sizeof(Bits); ++b, bytes += step) {
+    bits = static_cast<Bits>(bits | static_cast<Bits>(static_cast<Bits>(*bytes) << (8 * b)));
+  }
+  return bits;
+}
+
+// Copies a row of consecutive values to places that are `step` apart.
+template <class T>
+void copy_row(const unsigned char* from, const ByteOrder& order, std::size_t count, double* to,
+              std::size_t step) {
+  using Bits = BitsOf<T>;
+  const auto copy = [&](const auto& bits_at) {
+    if (step == 1) {  // a loop of its own, which compilers make vectors of
+      for (std::size_t i = 0; i < count; ++i) {
+        to[i] = static_cast<double>(std::bit_cast<T>(bits_at(i)));
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      to[i * step] = static_cast<double>(std::bit_cast<T>(bits_at(i)));
+    }
+  };
+  const auto byte = static_cast<std::ptrdiff_t>(order.byte);
+  if (order.is_big_endian) {
+    const unsigned char* const least = from + (sizeof(Bits) - 1) * order.byte;
+    copy([&](std::size_t i) { return gathered<Bits>(least + i * order.value, -byte); });
+  } else if (order.byte == 1) {
+    constexpr std::integral_constant<std::ptrdiff_t, 1> next;
+    copy([&](std::size_t i) { return gathered<Bits>(from + i * sizeof(Bits), next); });
+  } else {
+    copy([&](std::size_t i) { return gathered<Bits>(from + i, byte); });
+  }
+}
+
+using RowCopier = void (*)(const unsigned char*, const ByteOrder&, std::size_t, double*,
+                           std::size_t);
+
+// Returns the function for values of a type; null if they are not read.
+RowCopier row_copier(NetcdfType type) {
+  switch (type) {
+    case NetcdfType::int8:
+      return copy_row<std::int8_t>;
+    case NetcdfType::uint8:
+      return copy_row<std::uint8_t>;
+    case NetcdfType::int16:
+      return copy_row<std::int16_t>;
+    case NetcdfType::uint16:
+      return copy_row<std::uint16_t>;
+    case NetcdfType::int32:
+      return copy_row<std::int32_t>;
+    case NetcdfType::uint32:
+      return copy_row<std::uint32_t>;
+    case NetcdfType::float32:
+      return copy_row<float>;
+    case NetcdfType::float64:
+      return copy_row<double>;
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+bool Hdf5Chunks::take_type(Hdf5Id array, const VariableInFile& variable) {
+  const Hdf5Library& hdf5 = *hdf5_library();
+  const Hdf5Object type(hdf5.type(array), hdf5.close_type);
+  if (!type.is_open()) return false;
+  const int order = hdf5.type_order(type.id());
+  type_ = variable.type;
+  value_size_ = size_of(variable.type);
+  is_big_endian_ = order == hdf5_big_endian;
+  return (order == hdf5_little_endian || is_big_endian_) &&
+         hdf5.type_size(type.id()) == value_size_;
+}
+
+bool Hdf5Chunks::take_filters(Hdf5Id properties) {
+  const Hdf5Library& hdf5 = *hdf5_library();
+  const int count = hdf5.num_filters(properties);
+  if (count < 0) return false;
+  for (unsigned f = 0; f < static_cast<unsigned>(count); ++f) {
+    unsigned flags = 0;
+    unsigned config = 0;
+    std::size_t num_values = 0;
+    const int filter =
+        hdf5.filter(properties, f, &flags, &num_values, nullptr, 0, nullptr, &config);
+    if (filter == hdf5_deflate) {
+      filters_.push_back(Filter::deflate);
+    } else if (filter == hdf5_shuffle) {
+      filters_.push_back(Filter::shuffle);
+    } else {
+      return false;
+    }
+  }
+  // What every writer makes: shuffled bytes are compressed.
+  return std::ranges::is_sorted(filters_) && std::ranges::adjacent_find(filters_) == filters_.end();
+}
+
+bool Hdf5Chunks::take_places(Hdf5Id array) {
+  const Hdf5Library& hdf5 = *hdf5_library();
+  // An array may be shorter than its dimension, which others have made longer.
+  const Hdf5Object space(hdf5.space(array), hdf5.close_space);
+  std::vector<unsigned long long> lengths(shape_.size(), 0);
+  if (!space.is_open() || hdf5.rank(space.id()) != static_cast<int>(shape_.size()) ||
+      hdf5.lengths(space.id(), lengths.data(), nullptr) < 0 ||
+      !std::ranges::equal(lengths, shape_)) {
+    return false;
+  }
+  std::uint64_t wanted = 1;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    const std::uint64_t along = (shape_[d] + chunk_[d] - 1) / chunk_[d];
+    if (!system::multiply_checked(wanted, along, wanted)) return false;
+  }
+  unsigned long long count = 0;
+  if (hdf5.num_chunks(array, space.id(), &count) < 0 || count != wanted || count > most_chunks) {
+    return false;
+  }
+  places_.assign(static_cast<std::size_t>(count), {});
+  std::vector<unsigned long long> offset(shape_.size());
+  std::vector<std::size_t> start(shape_.size());
+  for (unsigned long long k = 0; k < count; ++k) {
+    StoredChunk place{};
+    unsigned long long size = 0;
+    if (hdf5.chunk_place(array, space.id(), k, offset.data(), &place.filters_left_out,
+                         &place.offset, &size) < 0) {
+      return false;
+    }
+    place.size = size;
+    for (std::size_t d = 0; d < start.size(); ++d) {
+      if (offset[d] % chunk_[d] != 0 || offset[d] >= shape_[d]) return false;
+      start[d] = static_cast<std::size_t>(offset[d]);
+    }
+    if (size == 0 || size > 2 * largest_chunk) return false;
+    places_[number_of(start)] = place;
+  }
+  return std::ranges::none_of(places_, [](const StoredChunk& place) { return place.size == 0; });
+}
+
+std::unique_ptr<const Hdf5Chunks> Hdf5Chunks::find(const std::string& path,
+                                                   const VariableInFile& variable) {
+  const Hdf5Library* const hdf5 = hdf5_library();
+  if (hdf5 == nullptr || variable.shape.empty() || row_copier(variable.type) == nullptr) return {};
+  const Hdf5Object array(open_hdf5_array(*hdf5, path, variable.name), hdf5->close_array);
+  if (!array.is_open()) return {};
+  const Hdf5Object properties(hdf5->properties(array.id()), hdf5->close_properties);
+  if (!properties.is_open()) return {};
+  std::unique_ptr<Hdf5Chunks> made(new Hdf5Chunks);
+  made->shape_ = variable.shape;
+  const std::size_t rank = variable.shape.size();
+  std::vector<unsigned long long> lengths(rank, 0);
+  // It fails for an array that is not in chunks.
+  if (hdf5->chunk(properties.id(), static_cast<int>(rank), lengths.data()) !=
+      static_cast<int>(rank)) {
+    return {};
+  }
+  std::uint64_t size = size_of(variable.type);
+  for (const unsigned long long length : lengths) {
+    if (length == 0 || !system::multiply_checked(size, length, size)) return {};
+    made->chunk_.push_back(length);
+  }
+  if (size > largest_chunk) return {};
+  made->values_per_chunk_ = static_cast<std::size_t>(size / size_of(variable.type));
+  if (!made->take_type(array.id(), variable) || !made->take_filters(properties.id()) ||
+      !made->take_places(array.id())) {
+    return {};
+  }
+  return made;
+}
+
+bool Hdf5Chunks::is_begin(std::span<const std::size_t> start) const {
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    if (start[d] % chunk_[d] != 0) return false;
+  }
+  return true;
+}
+
+bool Hdf5Chunks::is_chunk(const NetcdfBox& box) const {
+  if (!is_begin(box.start)) return false;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    if (box.count[d] != std::min(chunk_[d], shape_[d] - box.start[d])) return false;
+  }
+  return true;
+}
+
+std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {
+  std::size_t number = 0;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    const std::uint64_t along = (shape_[d] + chunk_[d] - 1) / chunk_[d];
+    number = static_cast<std::size_t>(number * along + start[d] / chunk_[d]);
+  }
+  return number;
+}
+
+LargeVector<unsigned char> Hdf5Chunks::values_of(const FileBytes& file, const StoredChunk& place,
+                                                 bool& is_shuffled) const {
+  const auto is_applied = [&](std::size_t f) { return (place.filters_left_out >> f & 1U) == 0; };
+  const std::size_t wanted = values_per_chunk_ * value_size_;
+  const std::uint64_t end = file.claimed_size();
+  if (place.size > end || place.offset > end - place.size) return {};
+  LargeVector<unsigned char> bytes(static_cast<std::size_t>(place.size));
+  file.read_at(place.offset, reinterpret_cast<char*>(bytes.data()), bytes.size());
+  is_shuffled = false;
+  for (std::size_t f = filters_.size(); f-- > 0;) {
+    if (!is_applied(f)) continue;
+    if (filters_[f] == Filter::shuffle) {
+      is_shuffled = true;
+      continue;
+    }
+    LargeVector<unsigned char> values(wanted);
+    uLongf size = wanted;
+    if (uncompress(values.data(), &size, bytes.data(), static_cast<uLong>(bytes.size())) != Z_OK ||
+        size != wanted) {
+      return {};
+    }
+    bytes.swap(values);
+  }
+  if (bytes.size() != wanted) return {};
+  return bytes;
+}
+
+bool Hdf5Chunks::read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const {
+  bool is_shuffled = false;
+  const LargeVector<unsigned char> values =
+      values_of(file, places_[number_of(box.start)], is_shuffled);
+  if (values.empty()) return false;
+  const ByteOrder order{is_shuffled ? 1 : value_size_, is_shuffled ? values_per_chunk_ : 1,
+                        is_big_endian_};
+  const RowCopier copy = row_copier(type_);
+  const std::size_t last = shape_.size() - 1;
+  std::vector<std::size_t> at(shape_.size(), 0);
+  for (;;) {
+    std::size_t from = 0;
+    std::size_t to = 0;
+    for (std::size_t d = 0; d < shape_.size(); ++d) {
+      from = from * static_cast<std::size_t>(chunk_[d]) + at[d];
+      to += at[d] * out.steps[d];
+    }
+    copy(values.data() + from * order.value, order, box.count[last], out.begin + to,
+         out.steps[last]);
+    std::size_t d = last;
+    for (;;) {
+      if (d-- == 0) return true;
+      if (++at[d] < box.count[d]) break;
+      at[d] = 0;
+    }
+  }
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Reads the chunks of a netCDF-4 variable beside netCDF-C, which decompresses one after the other
+// under one lock. HDF5 says where they are in the file; any number of threads reads them there.
+//
+// in    a file that netCDF-C has open, a variable of it
+// out   numbers
+// index chunks along the dimensions of the variable, numbered with the last dimension varying fastest
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
+#include "system/large_arrays.h"
+
+namespace rondel::io {
+
+class Hdf5Chunks {
+ public:
+  // Returns null if the variable is not in chunks that this class can read: of numbers of at most 32
+  // bits or doubles, all of them in the file, unchanged or compressed by zlib, with or without
+  // shuffled bytes. `path` is the name that netCDF-C was given. Precondition: the lock of netCDF-C is
+  // held.
+  static std::unique_ptr<const Hdf5Chunks> find(const std::string& path,
+                                                const VariableInFile& variable);
+
+  // Returns the number of values of a chunk.
+  [[nodiscard]] std::size_t num_values() const { return values_per_chunk_; }
+  // True if a chunk begins with these indices.
+  [[nodiscard]] bool is_begin(std::span<const std::size_t> start) const;
+  // True if a box is one chunk, which may go beyond the ends of the variable.
+  [[nodiscard]] bool is_chunk(const NetcdfBox& box) const;
+  // Reads the chunk of a box. Returns false if it is damaged; `out` may have been written then. Any
+  // number of threads may call it. Throws FileError if reading fails.
+  bool read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const;
+
+ private:
+  struct StoredChunk {
+    std::uint64_t offset;
+    std::uint64_t size;
+    unsigned filters_left_out;  // a bit for each filter
+  };
+  // A step that the values went through when they were written.
+  enum class Filter { shuffle, deflate };
+
+  Hdf5Chunks() = default;
+  // Each of these returns false if the array is not of the kind that is read.
+  bool take_type(std::int64_t array, const VariableInFile& variable);
+  bool take_filters(std::int64_t properties);
+  bool take_places(std::int64_t array);
+  [[nodiscard]] std::size_t number_of(std::span<const std::size_t> start) const;
+  // Returns the values of a chunk as they are in memory of the file's machine, shuffled or not; an
+  // empty vector if they are damaged.
+  LargeVector<unsigned char> values_of(const FileBytes& file, const StoredChunk& place,
+                                       bool& is_shuffled) const;
+
+  std::vector<std::uint64_t> shape_;
+  std::vector<std::uint64_t> chunk_;  // lengths
+  std::vector<Filter> filters_;       // in the order in which they were applied
+  std::vector<StoredChunk> places_;   // by number of the chunk
+  NetcdfType type_ = NetcdfType::float32;
+  std::size_t value_size_ = 0;
+  std::size_t values_per_chunk_ = 1;
+  bool is_big_endian_ = false;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/hdf5_library.h"
+
+#include <algorithm>
+#include <array>
+
+#include "io/netcdf_library.h"
+#include "system/dynamic_library.h"
+
+namespace rondel::io {
+namespace {
+
+// Loads all functions; returns false if one is missing. Where systems look for a symbol in the
+// libraries that a library needs, those of HDF5 are found by netCDF-C.
+bool load_hdf5(void* library, Hdf5Library& hdf5) {
+  system::SymbolLoader from(library);
+  from.get(hdf5.object_ids, "H5Fget_obj_ids");
+  from.get(hdf5.file_name, "H5Fget_name");
+  from.get(hdf5.open_array, "H5Dopen2");
+  from.get(hdf5.close_array, "H5Dclose");
+  from.get(hdf5.properties, "H5Dget_create_plist");
+  from.get(hdf5.close_properties, "H5Pclose");
+  from.get(hdf5.chunk, "H5Pget_chunk");
+  from.get(hdf5.num_filters, "H5Pget_nfilters");
+  from.get(hdf5.filter, "H5Pget_filter2");
+  from.get(hdf5.type, "H5Dget_type");
+  from.get(hdf5.close_type, "H5Tclose");
+  from.get(hdf5.type_size, "H5Tget_size");
+  from.get(hdf5.type_order, "H5Tget_order");
+  from.get(hdf5.space, "H5Dget_space");
+  from.get(hdf5.close_space, "H5Sclose");
+  from.get(hdf5.rank, "H5Sget_simple_extent_ndims");
+  from.get(hdf5.lengths, "H5Sget_simple_extent_dims");
+  from.get(hdf5.num_chunks, "H5Dget_num_chunks");
+  from.get(hdf5.chunk_place, "H5Dget_chunk_info");
+  from.get(hdf5.set_lengths, "H5Dset_extent");
+  from.get(hdf5.write_chunk, "H5Dwrite_chunk");
+  return from.has_all();
+}
+
+// Returns the file of this name among those that are open; a negative number if there is none.
+Hdf5Id open_file_named(const Hdf5Library& hdf5, const std::string& name) {
+  constexpr std::size_t most_files = 1024;
+  std::array<Hdf5Id, most_files> files{};
+  const std::ptrdiff_t count =
+      hdf5.object_ids(hdf5_all_files, hdf5_files, files.size(), files.data());
+  std::string found(name.size() + 2, '\0');
+  for (std::ptrdiff_t f = 0; f < std::min<std::ptrdiff_t>(count, most_files); ++f) {
+    const Hdf5Id file = files[static_cast<std::size_t>(f)];
+    const std::ptrdiff_t length = hdf5.file_name(file, found.data(), found.size());
+    if (length == static_cast<std::ptrdiff_t>(name.size()) && found.starts_with(name)) return file;
+  }
+  return -1;
+}
+
+}  // namespace
+
+Hdf5Id open_hdf5_array(const Hdf5Library& hdf5, const std::string& file, const std::string& name) {
+  const Hdf5Id id = open_file_named(hdf5, file);
+  return id < 0 ? id : hdf5.open_array(id, ('/' + name).c_str(), hdf5_default);
+}
+
+const Hdf5Library* hdf5_library() {
+  static Hdf5Library hdf5{};
+  static const bool is_loaded = [] {
+    void* const netcdf = netcdf_library_address();
+    return netcdf != nullptr && load_hdf5(netcdf, hdf5);
+  }();
+  return is_loaded ? &hdf5 : nullptr;
+}
+
+}  // namespace rondel::io

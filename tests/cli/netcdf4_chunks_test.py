@@ -1,0 +1,260 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""netCDF-4 in chunks of all kinds has the values that netCDF4-python reads, with any number of threads, and chunks that
+are written are read by it.
+
+Without netCDF4-python ctest says "Skipped".
+"""
+
+import importlib.util
+import itertools
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if importlib.util.find_spec("netCDF4") is None:
+    sys.exit(77)
+import netCDF4
+import numpy as np
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+SITE = pathlib.Path(netCDF4.__file__).parent.parent
+LIBRARIES = sorted(SITE.glob("net[cC][dD][fF]4.libs/libnetcdf-*"))
+if not LIBRARIES:
+    sys.exit(77)
+# The library of netCDF4-python, and the system's, which is older, if there is one.
+ENVIRONMENTS = [
+    {**os.environ, "RONDEL_NETCDF": str(LIBRARIES[0])},
+    {name: value for name, value in os.environ.items() if name != "RONDEL_NETCDF"},
+]
+LENGTHS = {"time": 12, "lat": 36, "lon": 72}
+TYPES = ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")
+
+
+def add_grid(data, num_times=12):
+    for name, start in (("lat", -90), ("lon", -180)):
+        data.createDimension(name, LENGTHS[name])
+        axis = data.createVariable(name, "f8", (name,))
+        axis.units = {"lat": "degrees_north", "lon": "degrees_east"}[name]
+        axis[:] = start + 5 * (np.arange(LENGTHS[name]) + 0.5)
+    data.createDimension("time", num_times)
+
+
+class Chunks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tool(self, *arguments, environment=ENVIRONMENTS[0]):
+        return subprocess.run(
+            [TOOL, *arguments, "--quiet"],
+            cwd=self.folder,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    def carried(self, name, *options, environment=ENVIRONMENTS[0]):
+        """The fields of a file on its own grid, by its nearest places: each value where it was."""
+        done = self.run_tool(
+            "regrid",
+            name,
+            "grid:5",
+            "--method",
+            "nearest",
+            "-o",
+            "out.nc4",
+            *options,
+            environment=environment,
+        )
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with netCDF4.Dataset(self.folder / "out.nc4") as data:
+            return {
+                key: data[key][:].filled(np.nan) for key in data.variables if key.startswith("v")
+            }
+
+    def given(self, name):
+        with netCDF4.Dataset(self.folder / name) as data:
+            found = {}
+            for key, field in data.variables.items():
+                if key.startswith("v"):
+                    order = [field.dimensions.index(d) for d in LENGTHS]
+                    found[key] = field[:].astype("f8").filled(np.nan).transpose(order)
+            return found
+
+    def compare(self, name, *options, environment=ENVIRONMENTS[0]):
+        wanted = self.given(name)
+        found = self.carried(name, *options, environment=environment)
+        self.assertEqual(list(found), list(wanted))
+        for key, values in wanted.items():
+            np.testing.assert_array_equal(found[key], values, key)
+
+    def test_types_filters_and_forms(self):
+        generator = np.random.default_rng(3)
+        filters = (
+            {"zlib": True},
+            {"zlib": True, "shuffle": False, "complevel": 9},
+            {"zlib": True, "fletcher32": True},
+            {"shuffle": False},
+            {"zlib": False, "fletcher32": True},
+        )
+        forms = ((1, 36, 72), (12, 36, 72), (5, 20, 33), (12, 9, 24), (3, 36, 10), (1, 1, 72))
+        orders = list(itertools.permutations(LENGTHS))
+        with netCDF4.Dataset(self.folder / "all.nc", "w") as data:
+            add_grid(data)
+            cases = itertools.product(TYPES, ("little", "big"), filters, forms)
+            for number, (letter, endian, packing, form) in enumerate(cases):
+                if number % 3 != 0 and letter not in ("i2", "f4"):
+                    continue
+                order = orders[number % len(orders)]
+                chunk = [form[list(LENGTHS).index(d)] for d in order]
+                field = data.createVariable(
+                    f"v{number}", letter, order, endian=endian, chunksizes=chunk, **packing
+                )
+                values = generator.integers(0, 100, [LENGTHS[d] for d in order])
+                field[:] = values - 50 * (letter[0] != "u") if letter[0] != "f" else values / 7
+        for environment, threads in itertools.product(ENVIRONMENTS, ("1", "2")):
+            with self.subTest(library=environment.get("RONDEL_NETCDF"), threads=threads):
+                self.compare("all.nc", "--threads", threads, environment=environment)
+
+    def test_packed_missing_and_unwritten_values(self):
+        generator = np.random.default_rng(4)
+        with netCDF4.Dataset(self.folder / "gaps.nc", "w") as data:
+            add_grid(data, None)
+            for number, (letter, times) in enumerate(
+                (("i2", 12), ("i2", 7), ("f4", 12), ("f4", 5), ("f8", 1))
+            ):
+                field = data.createVariable(
+                    f"v{number}",
+                    letter,
+                    tuple(LENGTHS),
+                    zlib=True,
+                    chunksizes=(4, 36, 72),
+                    fill_value=-9,
+                )
+                if letter == "i2":
+                    field.scale_factor = 0.25
+                    field.add_offset = 3.0
+                values = generator.integers(0, 90, (times, 36, 72)) * 0.25 + 3.0
+                field[:times] = np.ma.masked_less(values, 6)
+            sparse = data.createVariable(
+                "v9", "f4", tuple(LENGTHS), zlib=True, chunksizes=(1, 36, 36)
+            )
+            sparse[3] = generator.normal(size=(36, 72))
+            sparse[11, :, 40:] = 1.5
+        for environment in ENVIRONMENTS:
+            self.compare("gaps.nc", environment=environment)
+
+    def test_more_chunks_than_are_looked_up(self):
+        with netCDF4.Dataset(self.folder / "many.nc", "w") as data:
+            add_grid(data, 4100)
+            field = data.createVariable(
+                "v", "i2", tuple(LENGTHS), zlib=True, chunksizes=(1, 18, 72)
+            )
+            field[:] = np.arange(4100 * 36 * 72, dtype="i8").reshape(4100, 36, 72) % 30011
+        self.compare("many.nc")
+
+    def test_bytes_before_the_file(self):
+        """HDF5 counts from its signature, which may come behind other bytes."""
+        with netCDF4.Dataset(self.folder / "plain.nc", "w") as data:
+            add_grid(data)
+            data.createVariable("v", "f4", tuple(LENGTHS), zlib=True, chunksizes=(12, 36, 24))[
+                :
+            ] = np.random.default_rng(5).normal(size=tuple(LENGTHS.values()))
+        (self.folder / "behind.nc").write_bytes(
+            bytes(512) + (self.folder / "plain.nc").read_bytes()
+        )
+        try:
+            wanted = self.given("behind.nc")
+        except OSError:
+            self.skipTest("netCDF-C does not open it")
+        np.testing.assert_array_equal(self.carried("behind.nc")["v"], wanted["v"])
+
+    def test_damage_is_told_or_does_no_harm(self):
+        source = random.Random(6)
+        with netCDF4.Dataset(self.folder / "whole.nc", "w") as data:
+            add_grid(data)
+            data.createVariable("v", "f4", tuple(LENGTHS), zlib=True, chunksizes=(6, 18, 36))[:] = (
+                np.random.default_rng(6).normal(size=tuple(LENGTHS.values()))
+            )
+        content = (self.folder / "whole.nc").read_bytes()
+        wanted = self.given("whole.nc")["v"]
+        num_refused = 0
+        for _ in range(12):
+            place = source.randrange(len(content) // 3, len(content) - 8)
+            (self.folder / "bad.nc").write_bytes(content[:place] + b"rondel" + content[place + 6 :])
+            done = self.run_tool(
+                "regrid", "bad.nc", "grid:5", "--method", "nearest", "-o", "bad-out.nc"
+            )
+            if done.returncode == 0:
+                with netCDF4.Dataset(self.folder / "bad-out.nc") as data:
+                    np.testing.assert_array_equal(data["v"][:], wanted)
+                (self.folder / "bad-out.nc").unlink()
+                continue
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"\Arondel: bad\.nc: .*\n\Z")
+            self.assertFalse((self.folder / "bad-out.nc").exists())
+            num_refused += 1
+        self.assertGreater(num_refused, 6)
+
+    def test_chunks_that_are_written_are_those_of_netcdf(self):
+        """Equal bytes with any number of threads; chunks that a dimension cuts, times without an end, and --deflate."""
+        generator = np.random.default_rng(7)
+        with netCDF4.Dataset(self.folder / "in.nc", "w") as data:
+            add_grid(data, None)
+            for name, letter in (("v", "f4"), ("v2", "f8")):
+                data.createVariable(name, letter, tuple(LENGTHS))[:] = generator.normal(
+                    size=(12, 36, 72)
+                )
+        for environment, deflate in itertools.product(ENVIRONMENTS, ("0", "1", "9")):
+            results = []
+            for threads in ("1", "2"):
+                out = f"{threads}.nc4"
+                done = self.run_tool(
+                    "regrid",
+                    "in.nc",
+                    "grid:0.9",
+                    "--method",
+                    "bilinear",
+                    "-o",
+                    out,
+                    "--deflate",
+                    deflate,
+                    "--threads",
+                    threads,
+                    environment=environment,
+                )
+                self.assertEqual(done.returncode, 0, done.stderr)
+                with netCDF4.Dataset(self.folder / out) as data:
+                    self.assertTrue(data.dimensions["time"].isunlimited())
+                    self.assertEqual(len(data.dimensions["time"]), 12)
+                    results.append({key: data[key][:].filled(np.nan) for key in ("v", "v2")})
+                    self.assertEqual(data["v"].filters()["complevel"], int(deflate))
+                    self.assertNotEqual(data["v"].chunking(), "contiguous")
+                    self.assertNotEqual(200 % data["v"].chunking()[1], 0)
+            done = self.run_tool(
+                "regrid",
+                "in.nc",
+                "grid:0.9",
+                "--method",
+                "bilinear",
+                "-o",
+                "classic.nc",
+                environment=environment,
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with netCDF4.Dataset(self.folder / "classic.nc") as data:
+                for key in ("v", "v2"):
+                    for found in results:
+                        np.testing.assert_array_equal(found[key], data[key][:].filled(np.nan))
+
+
+if __name__ == "__main__":
+    unittest.main()
