@@ -562,9 +562,9 @@ def _centers(cells: CellSet) -> xarray.Dataset:
     lons, lats = cells._cells.facts.axes
     if len(lons):
         return _marked({"lat": ("lat", np.array(lats)), "lon": ("lon", np.array(lons))})
-    is_grid = len(cells.shape) == 2  # the faces of a cubed sphere have no axes in common
-    dims = ("y", "x") if is_grid else ("cell",)
-    degrees = cells._degrees().reshape(*(cells.shape if is_grid else (-1,)), 2)
+    # In files, too: a cubed sphere has six tiles.
+    dims = ("tile", "y", "x")[-len(cells.shape) :] if len(cells.shape) in (2, 3) else ("cell",)
+    degrees = cells._degrees().reshape(*(cells.shape if len(dims) > 1 else (-1,)), 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
 
 

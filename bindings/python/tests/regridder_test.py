@@ -355,7 +355,10 @@ def test_weights_of_a_grid_in_another_order_are_refused(tmp_path):
 def test_a_cubed_sphere_is_a_source_and_a_target():
     data = dataset(FINE, a=(("lat", "lon"), field(FINE)))
     found = rondel.regrid(data, "C6")
-    assert found["a"].dims == ("cell",)
+    assert found["a"].dims == ("tile", "y", "x")
     assert np.allclose(found["a"], smooth(found["lon"].values, found["lat"].values), atol=0.05)
-    back = rondel.Regridder(rondel.CellSet.named("C6"), COARSE, "conservative")(np.ones(216))
+    again = rondel.regrid(found, COARSE)  # the places name their grid
+    flat = found.stack(cell=("tile", "y", "x")).reset_index("cell", drop=True)
+    np.testing.assert_array_equal(again["a"], rondel.regrid(flat, COARSE)["a"])
+    back = rondel.Regridder(rondel.CellSet.named("C6"), COARSE, "conservative")(np.ones((6, 6, 6)))
     assert np.allclose(back, 1, atol=1e-13)
