@@ -18,9 +18,9 @@
 namespace rondel::io {
 namespace {
 
-// HDF5 finds a chunk by its number by looking at all before it, so that variables with more are left
-// to netCDF-C.
-constexpr unsigned long long most_chunks = 1ULL << 13U;
+// An HDF5 that cannot visit all chunks finds one by its number by looking at all before it, so that
+// variables with more are left to netCDF-C then.
+constexpr unsigned long long most_chunks = 1ULL << 12U;
 
 // A chunk that claims to be larger is left to netCDF-C.
 constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 30U;
@@ -152,32 +152,42 @@ bool Hdf5Chunks::take_places(Hdf5Id array) {
   }
   std::uint64_t wanted = 1;
   for (std::size_t d = 0; d < shape_.size(); ++d) {
-    const std::uint64_t along = (shape_[d] + chunk_[d] - 1) / chunk_[d];
-    if (!system::multiply_checked(wanted, along, wanted)) return false;
+    if (!system::multiply_checked(wanted, num_along(d), wanted)) return false;
   }
   unsigned long long count = 0;
-  if (hdf5.num_chunks(array, space.id(), &count) < 0 || count != wanted || count > most_chunks) {
-    return false;
-  }
+  if (hdf5.num_chunks(array, space.id(), &count) < 0 || count != wanted) return false;
   places_.assign(static_cast<std::size_t>(count), {});
-  std::vector<unsigned long long> offset(shape_.size());
-  std::vector<std::size_t> start(shape_.size());
-  for (unsigned long long k = 0; k < count; ++k) {
-    StoredChunk place{};
+  // Some versions visit chunks with other numbers than indices of values, which take_place() refuses.
+  const auto visit = [](const unsigned long long* begin, unsigned left_out, std::uint64_t place,
+                        unsigned long long size, void* chunks) noexcept {
+    return static_cast<Hdf5Chunks*>(chunks)->take_place(begin, {place, size, left_out}) ? 0 : -1;
+  };
+  const bool is_known =
+      hdf5.for_each_chunk != nullptr && hdf5.for_each_chunk(array, hdf5_default, visit, this) >= 0;
+  if (!is_known && count > most_chunks) return false;
+  std::vector<unsigned long long> begin(shape_.size());
+  for (unsigned long long k = 0; !is_known && k < count; ++k) {
+    StoredChunk chunk{};
     unsigned long long size = 0;
-    if (hdf5.chunk_place(array, space.id(), k, offset.data(), &place.filters_left_out,
-                         &place.offset, &size) < 0) {
+    if (hdf5.chunk_place(array, space.id(), k, begin.data(), &chunk.filters_left_out, &chunk.offset,
+                         &size) < 0) {
       return false;
     }
-    place.size = size;
-    for (std::size_t d = 0; d < start.size(); ++d) {
-      if (offset[d] % chunk_[d] != 0 || offset[d] >= shape_[d]) return false;
-      start[d] = static_cast<std::size_t>(offset[d]);
-    }
-    if (size == 0 || size > 2 * largest_chunk) return false;
-    places_[number_of(start)] = place;
+    chunk.size = size;
+    if (!take_place(begin.data(), chunk)) return false;
   }
-  return std::ranges::none_of(places_, [](const StoredChunk& place) { return place.size == 0; });
+  return std::ranges::none_of(places_, [](const StoredChunk& chunk) { return chunk.size == 0; });
+}
+
+bool Hdf5Chunks::take_place(const unsigned long long* begin, const StoredChunk& chunk) {
+  if (chunk.size == 0 || chunk.size > 2 * largest_chunk) return false;
+  std::size_t number = 0;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    if (begin[d] % chunk_[d] != 0 || begin[d] >= shape_[d]) return false;
+    number = static_cast<std::size_t>(number * num_along(d) + begin[d] / chunk_[d]);
+  }
+  places_[number] = chunk;
+  return true;
 }
 
 std::unique_ptr<const Hdf5Chunks> Hdf5Chunks::find(const std::string& path,
@@ -229,8 +239,7 @@ bool Hdf5Chunks::is_chunk(const NetcdfBox& box) const {
 std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {
   std::size_t number = 0;
   for (std::size_t d = 0; d < shape_.size(); ++d) {
-    const std::uint64_t along = (shape_[d] + chunk_[d] - 1) / chunk_[d];
-    number = static_cast<std::size_t>(number * along + start[d] / chunk_[d]);
+    number = static_cast<std::size_t>(number * num_along(d) + start[d] / chunk_[d]);
   }
   return number;
 }

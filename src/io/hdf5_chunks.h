@@ -55,6 +55,11 @@ class Hdf5Chunks {
   bool take_type(std::int64_t array, const VariableInFile& variable);
   bool take_filters(std::int64_t properties);
   bool take_places(std::int64_t array);
+  bool take_place(const unsigned long long* begin, const StoredChunk& chunk);
+  // Returns the number of chunks along a dimension.
+  [[nodiscard]] std::uint64_t num_along(std::size_t dimension) const {
+    return (shape_[dimension] + chunk_[dimension] - 1) / chunk_[dimension];
+  }
   [[nodiscard]] std::size_t number_of(std::span<const std::size_t> start) const;
   // Returns the values of a chunk as they are in memory of the file's machine, shuffled or not; an
   // empty vector if they are damaged.

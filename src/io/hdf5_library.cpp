@@ -36,6 +36,8 @@ bool load_hdf5(void* library, Hdf5Library& hdf5) {
   from.get(hdf5.chunk_place, "H5Dget_chunk_info");
   from.get(hdf5.set_lengths, "H5Dset_extent");
   from.get(hdf5.write_chunk, "H5Dwrite_chunk");
+  system::SymbolLoader newer(library);
+  newer.get(hdf5.for_each_chunk, "H5Dchunk_iter");
   return from.has_all();
 }
 

@@ -18,6 +18,11 @@ namespace rondel::io {
 // The number of an open object; negative after an error.
 using Hdf5Id = std::int64_t;
 
+// Takes where a chunk begins, the filters that were left out, its place in the file and its size there;
+// returns 0 to go on.
+using Hdf5ChunkVisitor = int (*)(const unsigned long long*, unsigned, std::uint64_t,
+                                 unsigned long long, void*);
+
 struct Hdf5Library {
   std::ptrdiff_t (*object_ids)(Hdf5Id, unsigned, std::size_t, Hdf5Id*);
   std::ptrdiff_t (*file_name)(Hdf5Id, char*, std::size_t);
@@ -40,6 +45,8 @@ struct Hdf5Library {
   int (*num_chunks)(Hdf5Id, Hdf5Id, unsigned long long*);
   int (*chunk_place)(Hdf5Id, Hdf5Id, unsigned long long, unsigned long long*, unsigned*,
                      std::uint64_t*, unsigned long long*);
+  // Null before HDF5 1.12.3.
+  int (*for_each_chunk)(Hdf5Id, Hdf5Id, Hdf5ChunkVisitor, void*);
   int (*set_lengths)(Hdf5Id, const unsigned long long*);
   int (*write_chunk)(Hdf5Id, Hdf5Id, unsigned, const unsigned long long*, std::size_t, const void*);
 };
