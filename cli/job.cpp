@@ -39,6 +39,8 @@ struct Job::State {
   // Returns the sum of the seconds of a stage.
   double& clock(Stage stage) {
     switch (stage) {
+      case Stage::read:
+        return seconds.read;
       case Stage::dual:
         return seconds.dual;
       case Stage::locator:

@@ -24,7 +24,7 @@
 namespace rondel::cli {
 
 /// The stages of a job that a command times itself.
-enum class Stage { dual, locator, query, write };
+enum class Stage { read, dual, locator, query, write };
 
 /// Wall time of a job and of its stages, in seconds. A stage that a command does not time is a part
 /// of `total` only.

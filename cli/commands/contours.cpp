@@ -37,6 +37,7 @@ struct ContoursOptions {
   double step = 0;             // --step; 0: not given
   bool has_bands = false;      // --bands
   bool is_native = false;      // --method native
+  std::string mesh;            // --source; empty: INPUT has the mesh
   double tolerance_deg = 0.01;
 };
 
@@ -67,7 +68,9 @@ void trace(Job& job, const ContoursOptions& options, const SiteTable& table, con
 CellRings cells_of_mesh(Job& job, const ContoursOptions& options, const SiteTable& table) {
   const FileName file = options.common.source();
   NativeCells native;
-  if (file_and_variable(file).second.empty()) {
+  if (!options.mesh.empty()) {
+    native = read_native_cells(options.mesh, table.positions);
+  } else if (file_and_variable(file).second.empty()) {
     // The variable says which mesh it is on, where a file has several. The name of one of its fields,
     // "tas[3]", begins with its own; other names of fields, "tas_2001-07-15", name no variable.
     FileName named = file;
@@ -84,6 +87,20 @@ CellRings cells_of_mesh(Job& job, const ContoursOptions& options, const SiteTabl
   return std::move(native.cells);
 }
 
+// Reads the values, and the places of the mesh that they are on.
+NetcdfSites read_values(Job& job, const ContoursOptions& options) {
+  const FileName file = options.common.source();
+  const std::span<const std::string> names(&options.value, 1);
+  if (options.mesh.empty()) return job.read_grid(file, options.common.read, names);
+  NetcdfSites sites;
+  job.time(Stage::read, [&] { sites = read_sites_on_mesh(file, options.mesh, names); });
+  // Without a column an error follows that says why.
+  if (!sites.table.columns.empty()) {
+    tell(file_and_variable(options.mesh).first.path, sites.remarks);
+  }
+  return sites;
+}
+
 // Traces in the cells of the mesh, of which sites that are masked have no value.
 ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
   const std::string path = file_and_variable(options.common.source()).first.path;
@@ -91,8 +108,7 @@ ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
     throw FileError((path == "-" ? "<stdin>" : path) +
                     ": --method native needs a file of netCDF with a mesh");
   }
-  const NetcdfSites grid =
-      job.read_grid(options.common.source(), options.common.read, {&options.value, 1});
+  const NetcdfSites grid = read_values(job, options);
   const SiteTable& table = grid.table;
   std::vector<double> values = column_values(table, options.value, "--value");
   const std::vector<bool> takes_part = grid.unmasked();
@@ -140,7 +156,7 @@ ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
 // any work if no levels are given or the sites are weighted.
 ExitStatus run_contours(const ContoursOptions& options) {
   CommonOptions common = options.common;
-  require_output(common, common.format() == "geojson", ".geojson");
+  require_output(common, common.format() == "geojson", ".geojson", {{"--source", options.mesh}});
   if (options.levels.empty() && options.step == 0) {
     throw UsageError("--levels or --step is required (see rondel contours --help)");
   }
@@ -192,6 +208,14 @@ void add_level_options(CLI::App& parser, ContoursOptions& options) {
           "of netCDF whose nodes or centers the sites are")
       ->check(one_of({"linear", "native"}))
       ->type_name("METHOD");
+  CLI::Option* const mesh =
+      parser
+          .add_option("--source", options.mesh,
+                      "Where INPUT has no mesh: netCDF with the mesh at whose nodes or cells the\n"
+                      "values are")
+          ->type_name("FILE");
+  require_effect(
+      options.common, mesh, [&options] { return options.is_native; }, "without --method native");
   parser.add_flag("--bands", options.has_bands, "The regions between the levels instead of lines");
   parser
       .add_option("--tolerance", options.tolerance_deg,
@@ -226,11 +250,15 @@ Command add_contours_command(CLI::App& tool) {
       "With --method native nothing is triangulated: values at the nodes of a mesh (UGRID, MPAS,\n"
       "ICON, ESMF, Exodus) are contoured in its faces, those of faces in the cells that join\n"
       "their centers, so that no line crosses land. Cells of more than three corners are divided\n"
-      "from their middle.\n\n"
+      "from their middle. Models that keep the mesh in a file of its own write values without\n"
+      "places: --source names that file, and the last dimension of the values says whether they\n"
+      "are at its nodes or its cells.\n\n"
       "Examples:\n"
       "  rondel contours stations.csv --value temperature --step 5 -o isotherms.geojson\n"
       "  rondel contours stations.csv --value depth --levels 0,200,2000 --bands -o bands.geojson\n"
-      "  rondel contours waves.nc --value height --step 1 --method native -o heights.geojson");
+      "  rondel contours waves.nc --value height --step 1 --method native -o heights.geojson\n"
+      "  rondel contours run.nc --value ssh[1] --step 0.5 --method native --source mesh.nc \\\n"
+      "      -o ssh.geojson");
   return {parser, [options] { return run_contours(*options); }};
 }
 

@@ -153,4 +153,15 @@ struct NetcdfSites {
 RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
                                          bool keep_columns);
 
+/// Reads fields whose places another file has, as models write them that keep their mesh apart: at
+/// the nodes or at the cells of the mesh, as many as the last dimension of the first field has, or
+/// else another one.
+/// \param data  netCDF, whose own places do not matter
+/// \param mesh  netCDF with a mesh; `FILE.nc:NAME` names a variable or a topology
+/// \param names  the fields, at least one; those with one value at each place are columns
+/// \throws FileError if the field has neither length, or the mesh as many nodes as cells, or some of
+///         the places are missing
+RONDEL_API NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
+                                          std::span<const std::string> names);
+
 }  // namespace rondel

@@ -4,6 +4,7 @@
 // Reads sites from netCDF files: read_netcdf_sites(). Sites are the centers of the cells if the
 // file has cells with centers, or else the places of the fields; fields with one value at each site
 // become columns of the table.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -185,6 +186,87 @@ std::string formats::variable_of(const io::NetcdfReader& reader, const std::stri
     if (is_beginning && length > longest.size()) longest = variable.name;
   }
   return longest.empty() ? reader.require(name).name : longest;
+}
+
+namespace {
+
+// The mesh of a file, and how many cells it has.
+struct PlacesOfMesh {
+  std::vector<LonLat> nodes;
+  std::vector<LonLat> centers;
+  std::size_t num_cells;
+  std::vector<std::int32_t> mask;  // of the cells
+  std::vector<std::string> remarks;
+};
+
+PlacesOfMesh places_of_mesh(const FileName& mesh) {
+  const auto [file, part] = file_and_variable(mesh);
+  io::FileBytes bytes(file, true);
+  return io::in_file(bytes.name(), [&, name = part] {
+    const io::NetcdfReader reader(bytes);
+    formats::MeshContent content =
+        formats::read_by_convention(reader, io::full_name(reader.variables(), name));
+    return PlacesOfMesh{std::move(content.nodes), std::move(content.centers),
+                        content.cells.num_cells(), std::move(content.mask),
+                        std::move(content.remarks)};
+  });
+}
+
+// True if values are at the nodes, false if they are at the cells.
+bool are_at_nodes(const io::VariableInFile& variable, const PlacesOfMesh& mesh) {
+  const std::size_t num_nodes = mesh.nodes.size();
+  const auto has = [&](std::size_t length) {
+    return std::ranges::count(variable.shape, length) > 0;
+  };
+  const std::string both =
+      std::to_string(num_nodes) + " nodes and " + std::to_string(mesh.num_cells) + " cells";
+  const std::string text = "variable " + io::in_quotes(variable.name);
+  if (!has(num_nodes) && !has(mesh.num_cells)) {
+    throw io::BadValue(text + " has no dimension of the length of the mesh, which has " + both);
+  }
+  if (num_nodes == mesh.num_cells) {
+    throw io::BadValue(text + " may be at nodes or at cells: the mesh has " + both);
+  }
+  const std::uint64_t last = variable.shape.back();
+  if (last == num_nodes || last == mesh.num_cells) return last == num_nodes;
+  if (has(num_nodes) && has(mesh.num_cells)) {
+    throw io::BadValue(text + " has dimensions of both lengths of the mesh, which has " + both);
+  }
+  return has(num_nodes);
+}
+
+}  // namespace
+
+NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
+                               std::span<const std::string> names) {
+  const system::ArithmeticScope arithmetic;
+  PlacesOfMesh places = places_of_mesh(mesh);
+  const std::string variable = named_variable(data, names).name;
+  NetcdfSites sites;
+  sites.remarks = std::move(places.remarks);
+  io::FileBytes bytes(data, true);
+  const bool is_of_nodes = io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    return are_at_nodes(reader.require(variable), places);
+  });
+  sites.table.positions = std::move(is_of_nodes ? places.nodes : places.centers);
+  if (!is_of_nodes) sites.mask = std::move(places.mask);
+  const std::string mesh_name = file_and_variable(mesh).first.path;
+  if (sites.table.positions.empty()) {
+    throw FileError(mesh_name + ": the mesh has no centers of its cells, which the values of " +
+                    io::in_quotes(variable) + " are at");
+  }
+  const auto missing = std::ranges::find_if(sites.table.positions, formats::is_missing_place);
+  if (missing != sites.table.positions.end()) {
+    throw FileError(mesh_name + ": " + (is_of_nodes ? "node " : "the center of cell ") +
+                    std::to_string(missing - sites.table.positions.begin()) + " has no place");
+  }
+  add_columns(FieldFile(data, names, sites.table.positions.size()), names, sites);
+  sites.shape = {sites.table.positions.size()};
+  sites.table.name = data.path;
+  sites.table.first_line = 0;
+  sites.table.sites = unit_vectors(sites.table.positions);
+  return sites;
 }
 
 NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,

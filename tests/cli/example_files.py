@@ -149,6 +149,19 @@ data:
 """
 
 
+def run():
+    """The text of values on the 642 cells of mesh.nc, without places, as a model writes them that keeps its mesh apart."""
+    values = ", ".join(f"{(7 * k % 642) / 200:.3f}" for k in range(2 * 642))
+    return f"""netcdf run {{
+dimensions: Time = 2 ; nCells = 642 ;
+variables:
+  double ssh(Time, nCells) ; ssh:units = "m" ;
+data:
+  ssh = {values} ;
+}}
+"""
+
+
 def curvilinear():
     """The text of a small grid in coordinates of two dimensions, as WRF has it."""
     places = [(10 + 0.2 * i - 0.05 * j, 45 + 0.05 * i + 0.2 * j) for j in range(5) for i in range(6)]
@@ -209,6 +222,7 @@ def makers(root):
         "mesh.nc": by_rondel("mesh icosahedral 3"),
         "icon.nc": netcdf(icon()),
         "model.nc": netcdf(model()),
+        "run.nc": netcdf(run()),
         "temperature.nc": netcdf(grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)),
         "waves.nc": netcdf(waves()),
         "winds.nc": netcdf(winds()),

@@ -40,7 +40,11 @@ COMMANDS = {
     "buffer": ("{INPUT} --distance 1", ["INPUT"], {"--output": ".geojson"}),
     "hull": ("{INPUT}", ["INPUT"], {"--output": ".npy"}),
     "check": ("{INPUT} {TRIANGLES}", ["INPUT", "TRIANGLES"], {}),
-    "contours": ("{INPUT} --value v --step 1", ["INPUT"], {"--output": ".geojson"}),
+    "contours": (
+        "{INPUT} --value v --step 1 --method native --source {--source}",
+        ["INPUT", "--source"],
+        {"--output": ".geojson"},
+    ),
     "graph": ("{INPUT} --kind gabriel", ["INPUT"], {"--output": ".geojson"}),
     "plot": ("{INPUT}", ["INPUT"], {"--output": ".svg"}),
     "generate": ("uniform -n 5", [], {"--output": ".csv"}),
