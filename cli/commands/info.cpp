@@ -319,6 +319,8 @@ ExitStatus run_info(const CommonOptions& options) {
   try {
     table = job.read();
   } catch (const FileError&) {
+    std::error_code error;
+    if (std::filesystem::is_fifo(common.input, error)) throw;  // which cannot be read again
     require_known_ending(common);
     const std::optional<OtherFacts> others = other_facts_of(common, job);
     if (!others) throw;

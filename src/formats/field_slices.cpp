@@ -337,9 +337,8 @@ void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
            " of their own: ",
        large);
   if (!unknown.text().empty()) {
-    fields_.remarks.push_back(
-        "copied as they are, as nothing says that their dimensions count places: " +
-        unknown.text());
+    fields_.remarks.push_back("copied, as nothing says that their dimensions count places: " +
+                              unknown.text());
   }
 }
 
@@ -375,9 +374,15 @@ bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   FieldArray array = array_of(file_, variable, all);
   bool is_rounded = false;
   array.values = file_.rounded_numbers(variable, is_rounded);
+  if (is_rounded) tell_of_rounding(variable);
   ValueRules(variable).apply(array.values);
   fields_.others.push_back(std::move(array));
   return true;
+}
+
+void FieldSlices::tell_of_rounding(const io::VariableInFile& variable) {
+  fields_.remarks.push_back("variable " + io::in_quotes(variable.name) +
+                            " has integers that are no doubles, which are rounded");
 }
 
 // Strings become texts of one length.
@@ -481,10 +486,7 @@ void FieldSlices::add_axes(const io::VariableInFile& variable, const FieldDimens
     axes.push_back(array_of(file_, *axis, {0}));
     bool is_rounded = false;
     axes.back().values = file_.rounded_numbers(*axis, is_rounded);
-    if (is_rounded) {
-      fields_.remarks.push_back("variable " + io::in_quotes(axis->name) +
-                                " has integers that are no doubles, which are rounded");
-    }
+    if (is_rounded) tell_of_rounding(*axis);
     rules.apply(axes.back().values);
   }
 }

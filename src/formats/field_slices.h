@@ -71,7 +71,9 @@ class FieldSlices {
   [[nodiscard]] std::string unknown_dimension(const io::VariableInFile& variable) const;
   // Adds a variable that has no points to `others`; returns false if it is left out.
   bool keep_other(const io::VariableInFile& variable);
-  // Does the same for a text.
+  // Adds a remark on integers of 64 bits.
+  void tell_of_rounding(const io::VariableInFile& variable);
+  // Does the same as keep_other() for a text.
   bool keep_text(const io::VariableInFile& variable);
   // True if the variable has texts along a leading dimension of the fields, such as names of regions.
   [[nodiscard]] bool is_label(const io::VariableInFile& variable) const;

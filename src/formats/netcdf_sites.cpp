@@ -240,6 +240,7 @@ bool are_at_nodes(const io::VariableInFile& variable, const PlacesOfMesh& mesh) 
 NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
                                std::span<const std::string> names) {
   const system::ArithmeticScope arithmetic;
+  io::require_no_pipe(data.path);
   PlacesOfMesh places = places_of_mesh(mesh);
   const std::string variable = named_variable(data, names).name;
   NetcdfSites sites;
@@ -272,6 +273,7 @@ NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
 NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
                               bool keep_columns) {
   const system::ArithmeticScope arithmetic;
+  if (file.bytes == nullptr) io::require_no_pipe(file.path);
   NetcdfSites sites;
   const NamedVariable named = named_variable(file, names);
   if (std::optional<NetcdfSites> centers = centers_of_cells(file, named.name)) {

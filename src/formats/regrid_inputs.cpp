@@ -41,6 +41,7 @@ std::optional<std::string> file_state(const std::string& path) {
 void RegridInputs::add(const std::string& role, const FileName& file) {
   if (file.bytes != nullptr) return;
   const std::string path = file_and_variable(file).first.path;
+  io::require_no_pipe(path);
   if (const auto state = file_state(path)) files_.push_back({role, path, *state});
 }
 

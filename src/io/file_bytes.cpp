@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +116,12 @@ void FileBytes::read_up_to(std::size_t size) {
     num_read_ += static_cast<std::size_t>(count);
     is_at_end_ = count == 0;
   }
+}
+
+void require_no_pipe(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_fifo(path, error)) return;
+  throw FileError(path + ": a pipe, and this file is read more than once; copy it to a file first");
 }
 
 void FileBytes::fail(int error) const {

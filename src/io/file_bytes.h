@@ -17,6 +17,10 @@
 
 namespace rondel::io {
 
+// Throws FileError if a path is that of a pipe, for what reads a file more than once: it would wait
+// forever for another writer.
+void require_no_pipe(const std::string& path);
+
 // A file that is read in two steps, so that false claims in its header can be refused before the
 // rest takes time and memory.
 class FileBytes {

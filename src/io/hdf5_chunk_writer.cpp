@@ -70,8 +70,10 @@ bool Hdf5ChunkWriter::write(const void* values, std::size_t count) {
     bytes += taken * variable_.value_size;
     count -= taken;
     if (taken < room) break;
-    // A chunk at the end of a dimension is as long as the others.
-    next_.resize(bytes_of_chunk_, 0);
+    // A chunk at the end of a dimension is as long as the others: its rest shows if that grows.
+    while (next_.size() < bytes_of_chunk_) {
+      next_.insert(next_.end(), variable_.fill.begin(), variable_.fill.end());
+    }
     waiting_.push_back({start_, std::move(next_)});
     next_ = {};
     next_.reserve(bytes_of_chunk_);

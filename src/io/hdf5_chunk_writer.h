@@ -29,6 +29,7 @@ struct ChunkedVariable {
   std::size_t value_size;
   int deflate;        // the effort of zlib, from 1 to 9
   bool is_unlimited;  // a dimension may grow
+  std::vector<unsigned char> fill;  // the bytes of a value beyond the end of a dimension
 };
 
 class Hdf5ChunkWriter {

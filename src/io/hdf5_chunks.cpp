@@ -20,7 +20,7 @@ namespace {
 
 // An HDF5 that cannot visit all chunks finds one by its number by looking at all before it, so that
 // variables with more are left to netCDF-C then.
-constexpr unsigned long long most_chunks = 1ULL << 12U;
+constexpr unsigned long long most_chunks = 1ULL << 10U;
 
 // A chunk that claims to be larger is left to netCDF-C.
 constexpr std::uint64_t largest_chunk = std::uint64_t{1} << 30U;
@@ -106,6 +106,7 @@ RowCopier row_copier(NetcdfType type) {
 
 }  // namespace
 
+// Files may have numbers of fewer bits than their bytes, or with another exponent, which HDF5 converts.
 bool Hdf5Chunks::take_type(Hdf5Id array, const VariableInFile& variable) {
   const Hdf5Library& hdf5 = *hdf5_library();
   const Hdf5Object type(hdf5.type(array), hdf5.close_type);
@@ -114,8 +115,13 @@ bool Hdf5Chunks::take_type(Hdf5Id array, const VariableInFile& variable) {
   type_ = variable.type;
   value_size_ = size_of(variable.type);
   is_big_endian_ = order == hdf5_big_endian;
-  return (order == hdf5_little_endian || is_big_endian_) &&
-         hdf5.type_size(type.id()) == value_size_;
+  if (order != hdf5_little_endian && !is_big_endian_) return false;
+  const Hdf5Object native(hdf5.native_type(type.id(), 0), hdf5.close_type);
+  const Hdf5Object copy(hdf5.copy_type(type.id()), hdf5.close_type);
+  constexpr int own =
+      std::endian::native == std::endian::big ? hdf5_big_endian : hdf5_little_endian;
+  return native.is_open() && copy.is_open() && hdf5.set_type_order(copy.id(), own) >= 0 &&
+         hdf5.is_same_type(copy.id(), native.id()) > 0;
 }
 
 bool Hdf5Chunks::take_filters(Hdf5Id properties) {
@@ -142,14 +148,9 @@ bool Hdf5Chunks::take_filters(Hdf5Id properties) {
 
 bool Hdf5Chunks::take_places(Hdf5Id array) {
   const Hdf5Library& hdf5 = *hdf5_library();
-  // An array may be shorter than its dimension, which others have made longer.
+  if (lengths_of(hdf5, array) != shape_) return false;
   const Hdf5Object space(hdf5.space(array), hdf5.close_space);
-  std::vector<unsigned long long> lengths(shape_.size(), 0);
-  if (!space.is_open() || hdf5.rank(space.id()) != static_cast<int>(shape_.size()) ||
-      hdf5.lengths(space.id(), lengths.data(), nullptr) < 0 ||
-      !std::ranges::equal(lengths, shape_)) {
-    return false;
-  }
+  if (!space.is_open()) return false;
   std::uint64_t wanted = 1;
   for (std::size_t d = 0; d < shape_.size(); ++d) {
     if (!system::multiply_checked(wanted, num_along(d), wanted)) return false;

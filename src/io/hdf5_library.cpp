@@ -26,8 +26,11 @@ bool load_hdf5(void* library, Hdf5Library& hdf5) {
   from.get(hdf5.filter, "H5Pget_filter2");
   from.get(hdf5.type, "H5Dget_type");
   from.get(hdf5.close_type, "H5Tclose");
-  from.get(hdf5.type_size, "H5Tget_size");
+  from.get(hdf5.copy_type, "H5Tcopy");
+  from.get(hdf5.native_type, "H5Tget_native_type");
+  from.get(hdf5.is_same_type, "H5Tequal");
   from.get(hdf5.type_order, "H5Tget_order");
+  from.get(hdf5.set_type_order, "H5Tset_order");
   from.get(hdf5.space, "H5Dget_space");
   from.get(hdf5.close_space, "H5Sclose");
   from.get(hdf5.rank, "H5Sget_simple_extent_ndims");
@@ -60,7 +63,22 @@ Hdf5Id open_file_named(const Hdf5Library& hdf5, const std::string& name) {
 
 Hdf5Id open_hdf5_array(const Hdf5Library& hdf5, const std::string& file, const std::string& name) {
   const Hdf5Id id = open_file_named(hdf5, file);
-  return id < 0 ? id : hdf5.open_array(id, ('/' + name).c_str(), hdf5_default);
+  if (id < 0) return id;
+  const Hdf5Id array = hdf5.open_array(id, ('/' + name).c_str(), hdf5_default);
+  if (array >= 0) return array;
+  // Where a variable has the name of a dimension and is no coordinate of it.
+  std::string other = '/' + name;
+  other.insert(other.rfind('/') + 1, "_nc4_non_coord_");
+  return hdf5.open_array(id, other.c_str(), hdf5_default);
+}
+
+std::vector<std::uint64_t> lengths_of(const Hdf5Library& hdf5, Hdf5Id array) {
+  const Hdf5Object space(hdf5.space(array), hdf5.close_space);
+  const int rank = space.is_open() ? hdf5.rank(space.id()) : -1;
+  if (rank <= 0) return {};
+  std::vector<unsigned long long> lengths(static_cast<std::size_t>(rank), 0);
+  if (hdf5.lengths(space.id(), lengths.data(), nullptr) < 0) return {};
+  return {lengths.begin(), lengths.end()};
 }
 
 const Hdf5Library* hdf5_library() {

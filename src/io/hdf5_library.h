@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace rondel::io {
 
@@ -36,8 +37,11 @@ struct Hdf5Library {
                 unsigned*);
   Hdf5Id (*type)(Hdf5Id);
   int (*close_type)(Hdf5Id);
-  std::size_t (*type_size)(Hdf5Id);
+  Hdf5Id (*copy_type)(Hdf5Id);
+  Hdf5Id (*native_type)(Hdf5Id, int);
+  int (*is_same_type)(Hdf5Id, Hdf5Id);
   int (*type_order)(Hdf5Id);
+  int (*set_type_order)(Hdf5Id, int);
   Hdf5Id (*space)(Hdf5Id);
   int (*close_space)(Hdf5Id);
   int (*rank)(Hdf5Id);
@@ -75,6 +79,9 @@ class Hdf5Object {
 // Opens an array of a file that netCDF-C has open under this name; returns a negative number if there
 // is none. Precondition: the lock of netCDF-C is held.
 Hdf5Id open_hdf5_array(const Hdf5Library& hdf5, const std::string& file, const std::string& name);
+
+// Returns the lengths of an array; none after an error. Precondition: as above.
+std::vector<std::uint64_t> lengths_of(const Hdf5Library& hdf5, Hdf5Id array);
 
 // Constants of the interface.
 inline constexpr Hdf5Id hdf5_all_files = 0x1f;  // in place of a file

@@ -6,10 +6,12 @@
 #include <array>
 #include <filesystem>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "io/bad_value.h"
+#include "io/hdf5_library.h"
 #include "io/netcdf_groups.h"
 #include "io/netcdf_slabs.h"
 #include "io/number.h"
@@ -199,6 +201,83 @@ class Netcdf4Header {
   std::vector<int> numbers_;  // by dimension: the number that netCDF-C has for it
 };
 
+// The number that stands for values that were never written: that of the variable, or else that of
+// netCDF for its type (netcdf.h, NC_FILL_*).
+double fill_number(const VariableInFile& variable) {
+  const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
+  if (fill != nullptr && !fill->numbers.empty()) return fill->numbers.front();
+  switch (variable.type) {
+    case NetcdfType::int8:
+      return -127;
+    case NetcdfType::uint8:
+      return 255;
+    case NetcdfType::int16:
+      return -32767;
+    case NetcdfType::uint16:
+      return 65535;
+    case NetcdfType::int32:
+      return -2147483647;
+    case NetcdfType::uint32:
+      return 4294967295;
+    case NetcdfType::float32:
+      return 9.9692099683868690e+36F;
+    default:
+      return 9.9692099683868690e+36;
+  }
+}
+
+template <class T>
+T fill_of(const VariableInFile& variable) {
+  if constexpr (std::is_same_v<T, double>) {
+    return fill_number(variable);
+  } else if constexpr (!std::is_same_v<T, std::int64_t>) {
+    return {};  // texts
+  } else {
+    const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
+    if (fill != nullptr && !fill->integers.empty()) return fill->integers.front();
+    if (variable.type == NetcdfType::uint64) return -2;  // 2^64 - 2
+    if (variable.type == NetcdfType::int64) return -9223372036854775806;
+    return static_cast<T>(fill_number(variable));
+  }
+}
+
+// Reads a box by read(start, count, values). What goes beyond the array in the file is filled: there
+// netCDF-C takes values of other places where several dimensions are short.
+template <class T, class Read>
+void read_stored(const VariableInFile& variable, const std::vector<std::size_t>& start,
+                 const std::vector<std::size_t>& count, std::span<T> out, const Read& read) {
+  std::vector<std::size_t> there = count;
+  std::size_t size = 1;
+  for (std::size_t d = 0; d < variable.stored.size(); ++d) {
+    const std::uint64_t left =
+        variable.stored[d] - std::min<std::uint64_t>(start[d], variable.stored[d]);
+    there[d] = static_cast<std::size_t>(std::min<std::uint64_t>(count[d], left));
+    size *= there[d];
+  }
+  if (there == count) {
+    read(start, count, out.data());
+    return;
+  }
+  std::ranges::fill(out, fill_of<T>(variable));
+  if (size == 0) return;
+  std::vector<T> values(size);
+  read(start, there, values.data());
+  // Rows along the last dimension go to their places.
+  const std::size_t row = there.back();
+  for (std::size_t k = 0; k < size / row; ++k) {
+    std::size_t rest = k;
+    std::size_t to = 0;
+    std::size_t step = count.back();
+    for (std::size_t d = count.size() - 1; d-- > 0;) {
+      to += rest % there[d] * step;
+      rest /= there[d];
+      step *= count[d];
+    }
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(k * row), row,
+                out.begin() + static_cast<std::ptrdiff_t>(to));
+  }
+}
+
 }  // namespace
 
 bool has_hdf5_at_begin(std::string_view head) { return head.starts_with(hdf5_signature); }
@@ -236,25 +315,42 @@ NetcdfHeader Netcdf4File::header() const {
   reader.add_group(number_, {});
   NetcdfHeader header = reader.take();
   resolve_names(header);
+  take_stored_lengths(header);
   return header;
+}
+
+void Netcdf4File::take_stored_lengths(NetcdfHeader& header) const {
+  const Hdf5Library* const hdf5 = path_.empty() ? nullptr : hdf5_library();
+  if (hdf5 == nullptr) return;
+  for (VariableInFile& variable : header.variables) {
+    const bool may_be_short = std::ranges::any_of(
+        variable.dimensions, [&](std::size_t d) { return header.dimensions[d].is_unlimited; });
+    if (!may_be_short) continue;
+    const Hdf5Object array(open_hdf5_array(*hdf5, path_, variable.name), hdf5->close_array);
+    if (!array.is_open()) continue;
+    std::vector<std::uint64_t> lengths = lengths_of(*hdf5, array.id());
+    if (lengths.size() == variable.shape.size() && lengths != variable.shape) {
+      variable.stored = std::move(lengths);
+    }
+  }
 }
 
 void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<double> out) const {
-  const NetcdfLock lock(netcdf_library_lock());
   for_each_slab(variable.shape, begin, out.size(),
-                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
-                  require_netcdf(
-                      library_, library_.read_doubles(variable.group, variable.number, start.data(),
-                                                      count.data(), out.data() + offset));
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
+                  read_box(variable, {start, count}, out.subspan(offset, size));
                 });
 }
 
 void Netcdf4File::read_box(const VariableInFile& variable, const NetcdfBox& box,
                            std::span<double> out) const {
   const NetcdfLock lock(netcdf_library_lock());
-  require_netcdf(library_, library_.read_doubles(variable.group, variable.number, box.start.data(),
-                                                 box.count.data(), out.data()));
+  read_stored(variable, box.start, box.count, out,
+              [&](const auto& start, const auto& count, double* values) {
+                require_netcdf(library_, library_.read_doubles(variable.group, variable.number,
+                                                               start.data(), count.data(), values));
+              });
 }
 
 void Netcdf4File::take_chunk(const VariableInFile& variable,
@@ -277,59 +373,59 @@ const Hdf5Chunks* Netcdf4File::chunks(const VariableInFile& variable) const {
 
 void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<std::int64_t> out) const {
-  static_assert(sizeof(long long) == sizeof(std::int64_t));
-  const bool is_natural = variable.type == NetcdfType::uint64;
-  const NetcdfLock lock(netcdf_library_lock());
-  const auto read = [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
-    std::int64_t* const at = out.data() + offset;
-    require_netcdf(
-        library_,
-        is_natural ? library_.read_naturals(variable.group, variable.number, start.data(),
-                                            count.data(), reinterpret_cast<unsigned long long*>(at))
-                   : library_.read_integers(variable.group, variable.number, start.data(),
-                                            count.data(), reinterpret_cast<long long*>(at)));
-  };
-  for_each_slab(variable.shape, begin, out.size(), read);
+  for_each_slab(variable.shape, begin, out.size(),
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
+                  read_box(variable, {start, count}, out.subspan(offset, size));
+                });
 }
 
 void Netcdf4File::read_box(const VariableInFile& variable, const NetcdfBox& box,
                            std::span<std::int64_t> out) const {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  const bool is_natural = variable.type == NetcdfType::uint64;
   const NetcdfLock lock(netcdf_library_lock());
-  require_netcdf(
-      library_,
-      variable.type == NetcdfType::uint64
-          ? library_.read_naturals(variable.group, variable.number, box.start.data(),
-                                   box.count.data(),
-                                   reinterpret_cast<unsigned long long*>(out.data()))
-          : library_.read_integers(variable.group, variable.number, box.start.data(),
-                                   box.count.data(), reinterpret_cast<long long*>(out.data())));
+  const auto read = [&](const auto& start, const auto& count, std::int64_t* values) {
+    require_netcdf(
+        library_,
+        is_natural
+            ? library_.read_naturals(variable.group, variable.number, start.data(), count.data(),
+                                     reinterpret_cast<unsigned long long*>(values))
+            : library_.read_integers(variable.group, variable.number, start.data(), count.data(),
+                                     reinterpret_cast<long long*>(values)));
+  };
+  read_stored(variable, box.start, box.count, out, read);
 }
 
 void Netcdf4File::read(const VariableInFile& variable, std::string& out) const {
   const NetcdfLock lock(netcdf_library_lock());
+  const auto read = [&](const auto& start, const auto& count, char* text) {
+    require_netcdf(library_, library_.read_text(variable.group, variable.number, start.data(),
+                                                count.data(), text));
+  };
   for_each_slab(variable.shape, 0, out.size(),
-                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
-                  require_netcdf(library_,
-                                 library_.read_text(variable.group, variable.number, start.data(),
-                                                    count.data(), out.data() + offset));
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
+                  read_stored(variable, start, count, std::span(out).subspan(offset, size), read);
                 });
 }
 
 std::vector<std::string> Netcdf4File::strings(const VariableInFile& variable) const {
   std::vector<std::string> result(variable.num_values);
   const NetcdfLock lock(netcdf_library_lock());
-  std::vector<char*> read(result.size(), nullptr);
+  std::vector<char*> found(result.size(), nullptr);
   int error = 0;
-  for_each_slab(variable.shape, 0, read.size(),
-                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
+  const auto read = [&](const auto& start, const auto& count, char** strings) {
+    error = library_.read_strings(variable.group, variable.number, start.data(), count.data(),
+                                  strings);
+  };
+  for_each_slab(variable.shape, 0, found.size(),
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
                   if (error != 0) return;
-                  error = library_.read_strings(variable.group, variable.number, start.data(),
-                                                count.data(), read.data() + offset);
+                  read_stored(variable, start, count, std::span(found).subspan(offset, size), read);
                 });
-  for (std::size_t i = 0; i < read.size() && error == 0; ++i) {
-    if (read[i] != nullptr) result[i] = read[i];
+  for (std::size_t i = 0; i < found.size() && error == 0; ++i) {
+    if (found[i] != nullptr) result[i] = found[i];
   }
-  library_.free_strings(read.size(), read.data());
+  library_.free_strings(found.size(), found.data());
   require_netcdf(library_, error);
   return result;
 }

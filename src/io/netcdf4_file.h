@@ -63,6 +63,9 @@ class Netcdf4File {
   [[nodiscard]] std::vector<std::string> strings(const VariableInFile& variable) const;
 
  private:
+  // Says how long arrays are in the file, where that is known and less than their dimensions.
+  void take_stored_lengths(NetcdfHeader& header) const;
+
   const NetcdfLibrary& library_;
   int number_ = 0;
   std::string path_;  // empty if the file is in memory

@@ -3,7 +3,10 @@
 #include "io/netcdf4_output.h"
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 #include <system_error>
@@ -75,6 +78,28 @@ std::uint64_t max_bytes_of_definitions(const Netcdf4Definitions& definitions) {
     size += of_chunk * (1 + 2 * values_of_chunks(shape) / values_of_chunk);
   }
   return size;
+}
+
+// Returns the bytes of the value of `_FillValue`, or else zeros.
+std::vector<unsigned char> fill_bytes(const NetcdfVariable& variable) {
+  std::vector<unsigned char> bytes(size_of(variable.type), 0);
+  const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
+  if (fill == nullptr || fill->numbers.empty()) return bytes;
+  const double number = fill->numbers.front();
+  const auto store = [&](auto value) { std::memcpy(bytes.data(), &value, sizeof value); };
+  if (variable.type == NetcdfType::float32) {
+    store(static_cast<float>(number));
+  } else if (variable.type == NetcdfType::float64) {
+    store(number);
+  } else {
+    // The last bytes are those of a larger integer, or the first ones where these come first.
+    const auto integer = static_cast<std::int64_t>(number);
+    const auto* const begin = reinterpret_cast<const unsigned char*>(&integer);
+    const std::size_t skipped =
+        std::endian::native == std::endian::big ? sizeof integer - bytes.size() : 0;
+    std::copy_n(begin + skipped, bytes.size(), bytes.begin());
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -171,18 +196,20 @@ void Netcdf4Output::define(const Netcdf4Definitions& definitions, int deflate) {
     define_variable(variable, own, deflate);
   }
   require(library_.end_definitions(number_), "the definitions");
-  for (std::size_t v = 0; v < variables_.size(); ++v) open_chunks(v);
+  for (std::size_t v = 0; v < variables_.size(); ++v) {
+    open_chunks(variables_[v], definitions.variables[v]);
+  }
 }
 
-void Netcdf4Output::open_chunks(std::size_t variable) {
-  DefinedVariable& output = variables_[variable];
+void Netcdf4Output::open_chunks(DefinedVariable& output, const NetcdfVariable& variable) {
   const std::vector<std::size_t> lengths = chunk_lengths(output.shape);
   std::uint64_t of_chunk = output.size_of_value;
   for (const std::size_t length : lengths) of_chunk *= length;
   if (deflate_ == 0 || output.num_bytes_stored <= of_chunk) return;
-  output.chunks = Hdf5ChunkWriter::open({path_, output.name, output.shape, lengths,
-                                         output.size_of_value, deflate_, output.is_unlimited},
-                                        threads_);
+  output.chunks =
+      Hdf5ChunkWriter::open({path_, output.name, output.shape, lengths, output.size_of_value,
+                             deflate_, output.is_unlimited, fill_bytes(variable)},
+                            threads_);
 }
 
 void Netcdf4Output::define_variable(const NetcdfVariable& variable,

@@ -57,8 +57,6 @@ class Netcdf4Output {
  private:
   void create(const std::string& name);
   void define(const Netcdf4Definitions& definitions, int deflate);
-  // Opens what compresses chunks of a variable, if it has several.
-  void open_chunks(std::size_t variable);
   void define_variable(const NetcdfVariable& variable, const std::vector<int>& dimensions,
                        int deflate);
   void put(int variable, const NetcdfAttribute& attribute);
@@ -80,6 +78,9 @@ class Netcdf4Output {
     bool is_unlimited;                        // a dimension may grow
     std::unique_ptr<Hdf5ChunkWriter> chunks;  // null: netCDF-C compresses
   };
+
+  // Opens what compresses chunks of a variable, if it has several.
+  void open_chunks(DefinedVariable& output, const NetcdfVariable& variable);
 
   AtomicFile& file_;
   const NetcdfLibrary& library_;

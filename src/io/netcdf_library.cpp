@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/netcdf_library.h"
 
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -11,6 +12,7 @@
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "io/number.h"
 #include "rondel/io.h"
 #include "system/dynamic_library.h"
 
@@ -91,6 +93,11 @@ const NetcdfLibrary& netcdf_library() {
     void* const library = netcdf_library_address();
     return library != nullptr && load_netcdf(library, netcdf);
   }();
+  if (const char* const named = std::getenv("RONDEL_NETCDF");
+      !is_loaded && named != nullptr && *named != '\0') {
+    throw BadValue("netCDF-4 (HDF5) needs the library netCDF-C, and " + in_quotes(named) +
+                   ", which RONDEL_NETCDF names, cannot be loaded as it");
+  }
   if (!is_loaded) {
     throw BadValue(
         "netCDF-4 (HDF5) needs the library netCDF-C, which is not found: install libnetcdf19 "

@@ -51,6 +51,9 @@ struct VariableInFile : NetcdfVariable {
   bool has_strings = false;  // netCDF-4: of the type text, and each value is a string of any length
   int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for the variable
   int number = 0;
+  // netCDF-4: the lengths that the array has in the file, where they are shorter than those of
+  // dimensions that others have made longer; empty where they are not. What lacks is filled.
+  std::vector<std::uint64_t> stored;
 };
 
 // A file of netCDF-4 has what the classic formats have, and more:

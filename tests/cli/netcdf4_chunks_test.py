@@ -152,6 +152,84 @@ class Chunks(unittest.TestCase):
         for environment in ENVIRONMENTS:
             self.compare("gaps.nc", environment=environment)
 
+    def test_variables_shorter_than_their_dimensions(self):
+        """Values are those that were written, and what lacks is missing; netCDF-C, asked for all, mixes them up."""
+        generator = np.random.default_rng(8)
+        for number, order in enumerate(itertools.permutations(LENGTHS)):
+            for packing in ({}, {"zlib": True, "chunksizes": [min(LENGTHS[d], 5) for d in order]}):
+                name = f"short{number}.nc"
+                wanted = np.full(tuple(LENGTHS.values()), np.nan)
+                wanted[:5, :, :] = generator.integers(0, 1000, (5, 36, 72))
+                if number % 2 == 0:  # a second dimension without an end
+                    wanted[:, 20:, :] = np.nan
+                with netCDF4.Dataset(self.folder / name, "w") as data:
+                    for dimension, length in LENGTHS.items():
+                        is_endless = dimension == "time" or (number % 2 == 0 and dimension == "lat")
+                        data.createDimension(dimension, None if is_endless else length)
+                    for axis, start in (("lat", -90), ("lon", -180)):
+                        places = data.createVariable(axis, "f8", (axis,))
+                        places.units = {"lat": "degrees_north", "lon": "degrees_east"}[axis]
+                        places[:] = start + 5 * (np.arange(LENGTHS[axis]) + 0.5)
+                    data.createVariable("time", "f8", ("time",))[:] = np.arange(12)
+                    for letter in ("f4", "i2", "f8"):
+                        field = data.createVariable(f"v_{letter}", letter, order, **packing)
+                        turned = wanted.transpose([list(LENGTHS).index(d) for d in order])
+                        there = ~np.isnan(turned)
+                        box = tuple(slice(0, np.nonzero(there)[axis].max() + 1) for axis in range(3))
+                        field[box] = turned[box]
+                for environment in ENVIRONMENTS:
+                    for key, values in self.carried(name, environment=environment).items():
+                        np.testing.assert_array_equal(values, wanted, f"{key} {order} {packing}")
+
+    def test_times_are_appended_to_what_is_written(self):
+        """Beyond the last time is what the file says of values that were never written."""
+        with netCDF4.Dataset(self.folder / "in.nc", "w") as data:
+            add_grid(data, None)
+            data.createVariable("v", "f4", tuple(LENGTHS))[:] = np.ones((30, 36, 72))
+        for environment, deflate in itertools.product(ENVIRONMENTS, ("0", "1")):
+            done = self.run_tool(
+                "regrid",
+                "in.nc",
+                "grid:5",
+                "--method",
+                "nearest",
+                "-o",
+                "out.nc4",
+                "--deflate",
+                deflate,
+                environment=environment,
+            )
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with netCDF4.Dataset(self.folder / "out.nc4", "a") as data:
+                self.assertEqual(data["v"].chunking(), [25, 36, 72])
+                data["v"][30, :3] = 5
+                data["v"][32] = 5
+            with netCDF4.Dataset(self.folder / "out.nc4") as data:
+                found = data["v"][:].filled(np.nan)
+            self.assertEqual(found.shape, (33, 36, 72))
+            self.assertTrue((found[:30] == 1).all() and (found[30, :3] == 5).all())
+            self.assertTrue(np.isnan(found[30, 3:]).all() and np.isnan(found[31]).all())
+
+    def test_a_pipe_is_refused_where_files_are_read_more_than_once(self):
+        with netCDF4.Dataset(self.folder / "in.nc", "w") as data:
+            add_grid(data)
+            data.createVariable("v", "f4", tuple(LENGTHS))[:] = 1.0
+        os.mkfifo(self.folder / "pipe.nc")
+        for command in (
+            ("regrid", "pipe.nc", "grid:30", "-o", "out.nc"),
+            ("regrid", "in.nc", "pipe.nc", "-o", "out.nc"),
+            ("interpolate", "pipe.nc", "--value", "v", "--to", "grid:30", "-o", "out.nc"),
+            ("info", "pipe.nc"),
+        ):
+            done = subprocess.run(
+                [TOOL, *command], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
+            )
+            self.assertEqual(
+                (done.returncode, done.stderr),
+                (1, "rondel: pipe.nc: a pipe, and this file is read more than once; copy it to a file first\n"),
+                command,
+            )
+
     def test_more_chunks_than_are_looked_up(self):
         with netCDF4.Dataset(self.folder / "many.nc", "w") as data:
             add_grid(data, 4100)

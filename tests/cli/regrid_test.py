@@ -234,7 +234,7 @@ class Regrid(unittest.TestCase):
             said,
             [
                 "elsewhere.nc: left out, as they have no values at the points: zm, of_edges, of_vertices, u, w and 1 more",
-                "elsewhere.nc: copied as they are, as nothing says that their dimensions count places: bands (band)",
+                "elsewhere.nc: copied, as nothing says that their dimensions count places: bands (band)",
             ],
         )
         with netCDF4.Dataset(self.folder / "out.nc") as out:
