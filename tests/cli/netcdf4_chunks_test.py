@@ -7,6 +7,7 @@ are written are read by it.
 Without netCDF4-python ctest says "Skipped".
 """
 
+import ctypes
 import importlib.util
 import itertools
 import os
@@ -123,6 +124,51 @@ class Chunks(unittest.TestCase):
         for environment, threads in itertools.product(ENVIRONMENTS, ("1", "2")):
             with self.subTest(library=environment.get("RONDEL_NETCDF"), threads=threads):
                 self.compare("all.nc", "--threads", threads, environment=environment)
+
+    def test_numbers_of_fewer_bits_than_their_bytes(self):
+        """HDF5 has integers of any number of bits and floats with any exponent, which netCDF4-python cannot make."""
+        hdf5 = ctypes.CDLL(str(LIBRARIES[0]))
+        number = ctypes.c_int64
+        for name in ("H5Fopen", "H5Dopen2", "H5Dcreate2", "H5Tcopy", "H5Screate_simple", "H5Pcreate"):
+            getattr(hdf5, name).restype = number
+
+        def of_library(name):
+            return number.in_dll(hdf5, name)
+
+        kinds = {
+            "v_short": ("H5T_STD_I16LE_g", lambda kind: hdf5.H5Tset_precision(kind, ctypes.c_size_t(12))),
+            "v_int": ("H5T_STD_I32LE_g", lambda kind: hdf5.H5Tset_precision(kind, ctypes.c_size_t(24))),
+            "v_float": ("H5T_IEEE_F32LE_g", lambda kind: hdf5.H5Tset_ebias(kind, ctypes.c_size_t(100))),
+        }
+        values = np.arange(36 * 72, dtype="f8").reshape(36, 72) % 2000 - 1000
+        lengths = (ctypes.c_ulonglong * 2)(36, 72)
+        with netCDF4.Dataset(self.folder / "odd.nc", "w") as data:
+            add_grid(data)
+        file = number(hdf5.H5Fopen(str(self.folder / "odd.nc").encode(), 1, number(0)))
+        for name, (base, change) in kinds.items():
+            kind = number(hdf5.H5Tcopy(of_library(base)))
+            self.assertGreaterEqual(change(kind), 0)
+            chunks = number(hdf5.H5Pcreate(of_library("H5P_CLS_DATASET_CREATE_ID_g")))
+            hdf5.H5Pset_chunk(chunks, 2, lengths)
+            hdf5.H5Pset_deflate(chunks, 1)
+            space = number(hdf5.H5Screate_simple(2, lengths, None))
+            array = number(
+                hdf5.H5Dcreate2(file, name.encode(), kind, space, number(0), chunks, number(0))
+            )
+            native = of_library("H5T_NATIVE_DOUBLE_g")
+            pointer = values.ctypes.data_as(ctypes.c_void_p)
+            self.assertEqual(hdf5.H5Dwrite(array, native, number(0), number(0), number(0), pointer), 0)
+            for axis, scale in enumerate(("lat", "lon")):
+                places = number(hdf5.H5Dopen2(file, scale.encode(), number(0)))
+                self.assertEqual(hdf5.H5DSattach_scale(array, places, axis), 0)
+                hdf5.H5Dclose(places)
+            hdf5.H5Dclose(array)
+        hdf5.H5Fclose(file)
+        for environment in ENVIRONMENTS:
+            found = self.carried("odd.nc", environment=environment)
+            self.assertEqual(set(found), set(kinds))
+            for name, array in found.items():
+                np.testing.assert_array_equal(array, values, name)
 
     def test_packed_missing_and_unwritten_values(self):
         generator = np.random.default_rng(4)
