@@ -93,16 +93,16 @@ const NetcdfLibrary& netcdf_library() {
     void* const library = netcdf_library_address();
     return library != nullptr && load_netcdf(library, netcdf);
   }();
-  if (const char* const named = std::getenv("RONDEL_NETCDF");
-      !is_loaded && named != nullptr && *named != '\0') {
-    throw BadValue("netCDF-4 (HDF5) needs the library netCDF-C, and " + in_quotes(named) +
-                   ", which RONDEL_NETCDF names, cannot be loaded as it");
-  }
   if (!is_loaded) {
+    const char* const named = std::getenv("RONDEL_NETCDF");
+    const std::string why = named == nullptr || *named == '\0'
+                                ? "which is not found"
+                                : "as which " + in_quotes(named) +
+                                      ", the file that RONDEL_NETCDF names, cannot be loaded";
     throw BadValue(
-        "netCDF-4 (HDF5) needs the library netCDF-C, which is not found: install libnetcdf19 "
-        "(Debian), netcdf (Homebrew, "
-        "conda) or, for Python, netCDF4 (pip); or name the file of the library by RONDEL_NETCDF");
+        "netCDF-4 (HDF5) needs the library netCDF-C, " + why +
+        ": install libnetcdf19 (Debian), netcdf (Homebrew, conda) or, for Python, netCDF4 (pip); "
+        "or name the file of the library by RONDEL_NETCDF");
   }
   return netcdf;
 }

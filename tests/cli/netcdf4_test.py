@@ -510,7 +510,7 @@ class Netcdf4(unittest.TestCase):
         message = self.run_tool(
             "remap", "ok.nc", "grid:60", "-o", "w.nc", status=1, environment=nowhere
         )
-        for word in ("rondel: ok.nc: ", "libnetcdf19", "netCDF4", "RONDEL_NETCDF"):
+        for word in ("rondel: ok.nc: ", "nowhere.so", "libnetcdf19", "netCDF4", "RONDEL_NETCDF"):
             self.assertIn(word, message)
         message = self.run_tool(
             "remap", "grid:60", "grid:60", "-o", "w.nc4", status=1, environment=nowhere

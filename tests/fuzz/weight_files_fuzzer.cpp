@@ -261,6 +261,14 @@ void test_weights(std::string_view bytes) {
     }
     if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});
     if (!fields.arrays.empty()) test_slices(folder, path, fields);
+    for (const FieldArray& array : fields.arrays) {
+      expect_answer([&] {
+        const NetcdfSites sites = read_sites_on_mesh(path, path, {&array.name, 1});
+        require(sites.table.columns.size() <= 1, "one field is one column");
+        require(sites.table.positions.size() == sites.table.sites.size(), "sites have positions");
+        require(sites.unmasked().size() == sites.table.sites.size(), "each takes part or not");
+      });
+    }
   });
 }
 
