@@ -27,8 +27,8 @@ struct ChunkedVariable {
   std::vector<std::uint64_t> shape;
   std::vector<std::size_t> chunk;  // lengths
   std::size_t value_size;
-  int deflate;        // the effort of zlib, from 1 to 9
-  bool is_unlimited;  // a dimension may grow
+  int deflate;                      // the effort of zlib, from 1 to 9
+  bool is_unlimited;                // a dimension may grow
   std::vector<unsigned char> fill;  // the bytes of a value beyond the end of a dimension
 };
 

@@ -39,7 +39,7 @@ class Hdf5Chunks {
   [[nodiscard]] bool is_chunk(const NetcdfBox& box) const;
   // Reads the chunk of a box. Returns false if it is damaged; `out` may have been written then. Any
   // number of threads may call it. Throws FileError if reading fails.
-  bool read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const;
+  [[nodiscard]] bool read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const;
 
  private:
   struct StoredChunk {

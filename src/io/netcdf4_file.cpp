@@ -414,8 +414,8 @@ std::vector<std::string> Netcdf4File::strings(const VariableInFile& variable) co
   std::vector<char*> found(result.size(), nullptr);
   int error = 0;
   const auto read = [&](const auto& start, const auto& count, char** strings) {
-    error = library_.read_strings(variable.group, variable.number, start.data(), count.data(),
-                                  strings);
+    error =
+        library_.read_strings(variable.group, variable.number, start.data(), count.data(), strings);
   };
   for_each_slab(variable.shape, 0, found.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {

@@ -120,7 +120,8 @@ class NetcdfReader {
   // Reads a whole chunk of a compressed variable beside other threads that do the same. Returns false
   // if the box is no chunk, or only netCDF-C can read it; then `out` may have been written, and
   // read_box() reads the values or throws.
-  bool read_chunk(const VariableInFile& variable, const NetcdfBox& box, const BoxPlace& out) const;
+  [[nodiscard]] bool read_chunk(const VariableInFile& variable, const NetcdfBox& box,
+                                const BoxPlace& out) const;
   // Returns all values as integers. Throws BadValue if they are a text, floating-point numbers, or
   // 2^63 or more.
   [[nodiscard]] std::vector<std::int64_t> integers(const VariableInFile& variable) const;
