@@ -43,7 +43,6 @@ Hdf5ChunkWriter::Hdf5ChunkWriter(ChunkedVariable variable, Hdf5Id array, unsigne
   for (std::size_t d = divided_ + 1; d <= last; ++d) of_index_ *= variable_.chunk[d];
   bytes_of_chunk_ = of_index_ * variable_.chunk[divided_] * variable_.value_size;
   for (const std::uint64_t length : variable_.shape) values_left_ *= length;
-  next_.reserve(bytes_of_chunk_);
 }
 
 std::size_t Hdf5ChunkWriter::values_of_next() const {
@@ -66,6 +65,7 @@ bool Hdf5ChunkWriter::write(const void* values, std::size_t count) {
   while (count > 0) {
     const std::size_t room = values_of_next() - next_.size() / variable_.value_size;
     const std::size_t taken = std::min(room, count);
+    if (next_.empty()) next_.reserve(bytes_of_chunk_);
     next_.insert(next_.end(), bytes, bytes + taken * variable_.value_size);
     bytes += taken * variable_.value_size;
     count -= taken;
@@ -76,7 +76,6 @@ bool Hdf5ChunkWriter::write(const void* values, std::size_t count) {
     }
     waiting_.push_back({start_, std::move(next_)});
     next_ = {};
-    next_.reserve(bytes_of_chunk_);
     go_on();
     if (waiting_.size() == most_waiting && !write_waiting()) return false;
   }

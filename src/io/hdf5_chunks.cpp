@@ -142,7 +142,7 @@ bool Hdf5Chunks::take_filters(Hdf5Id properties) {
       return false;
     }
   }
-  // What every writer makes: shuffled bytes are compressed.
+  // Every writer shuffles bytes first, and compresses them then.
   return std::ranges::is_sorted(filters_) && std::ranges::adjacent_find(filters_) == filters_.end();
 }
 

@@ -66,7 +66,7 @@ Hdf5Id open_hdf5_array(const Hdf5Library& hdf5, const std::string& file, const s
   if (id < 0) return id;
   const Hdf5Id array = hdf5.open_array(id, ('/' + name).c_str(), hdf5_default);
   if (array >= 0) return array;
-  // Where a variable has the name of a dimension and is no coordinate of it.
+  // A variable with the name of a dimension that is no coordinate of it has this name in HDF5.
   std::string other = '/' + name;
   other.insert(other.rfind('/') + 1, "_nc4_non_coord_");
   return hdf5.open_array(id, other.c_str(), hdf5_default);

@@ -69,8 +69,8 @@ class Netcdf4File {
   const NetcdfLibrary& library_;
   int number_ = 0;
   std::string path_;  // empty if the file is in memory
-  // By the numbers of a group and of a variable, after the first call of chunks(); null: read by
-  // netCDF-C.
+  // The results of chunks() by the numbers of a group and of a variable; null for those that
+  // netCDF-C reads.
   mutable std::map<std::pair<int, int>, std::unique_ptr<const Hdf5Chunks>> chunks_;
 };
 

@@ -29,8 +29,11 @@ constexpr std::uint64_t values_of_chunk = std::uint64_t{1} << 16U;
 
 // The size of the cache of a variable's chunks. Values come in their order, so that a chunk is
 // complete soon and need not wait for the end of the file, where all that wait are compressed by one
-// thread while no other has work. NetCDF-C keeps back at most this many bytes of a variable.
+// thread while no other has work.
 constexpr std::uint64_t size_of_cache = std::uint64_t{1} << 22U;
+
+// NetCDF-C and Hdf5ChunkWriter keep back fewer bytes of a variable: a cache, or 17 chunks of doubles.
+constexpr std::uint64_t max_kept_back = std::uint64_t{1} << 24U;
 
 // Returns the lengths of a chunk: the last dimensions as far as they fit, and as many indices of
 // the next one as fit.
@@ -156,7 +159,7 @@ void Netcdf4Output::require_room() {
     if (variable.num_bytes_handed == 0) continue;
     const std::uint64_t of_chunk = values_of_chunk * variable.size_of_value;
     kept_back += std::min(
-        {size_of_cache, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
+        {max_kept_back, variable.num_bytes_stored, 2 * variable.num_bytes_handed + of_chunk});
   }
   const std::uint64_t needed = system::size_of(descriptor_) + kept_back;
   if (needed <= size_with_room_) return;

@@ -26,7 +26,7 @@ class Hdf5Chunks;
 class Netcdf4File;
 struct NetcdfHeader;
 
-// Where the values of a box go: value (i, j, ...) of the box to begin[i * steps[0] + j * steps[1] + ...].
+// The places that the values of a box go to: value (i, j, ...) of the box to begin[i * steps[0] + j * steps[1] + ...].
 struct BoxPlace {
   double* begin;
   std::span<const std::size_t> steps;

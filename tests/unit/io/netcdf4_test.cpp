@@ -168,7 +168,7 @@ TEST_F(netcdf4, is_read_from_any_value_on_and_box_by_box) {
   EXPECT_FALSE(is_rounded);
 }
 
-// With an HDF5 that does not say where chunks are there is nothing to test.
+// There is nothing to test with an HDF5 that does not say where chunks are.
 TEST_F(netcdf4, has_chunks_that_are_read_without_the_library) {
   io::FileBytes on_disk(path_);
   const NetcdfReader reader(on_disk);
