@@ -11,7 +11,6 @@
 #include <limits>
 #include <string>
 #include <string_view>
-#include <type_traits>
 
 #include "interpolation/vertex_fields.h"
 #include "rondel/error.h"
@@ -167,17 +166,16 @@ bool apply_rows_to_all(const Weights& weights, std::size_t begin, std::size_t en
                        std::span<const double> in, std::span<double> out, std::size_t num_fields,
                        const ApplyOptions& options) {
   bool is_right = true;
-  const auto apply_to = [&](auto count, std::size_t first) {
+  const auto apply_to = [&](const auto& rows_of, std::size_t first) {
     const FieldRun<const double> from{in.data() + first * weights.num_columns, weights.num_columns};
     const FieldRun<double> to{out.data() + first * weights.num_rows(), weights.num_rows()};
-    is_right =
-        apply_rows<decltype(count)::value>(weights, begin, end, from, to, options) && is_right;
+    is_right = rows_of(weights, begin, end, from, to, options) && is_right;
   };
-  constexpr std::integral_constant<std::size_t, 1> one;
-  constexpr std::integral_constant<std::size_t, fields_together> several;
   std::size_t first = 0;
-  for (; first + several <= num_fields; first += several) apply_to(several, first);
-  for (; first < num_fields; ++first) apply_to(one, first);
+  for (; first + fields_together <= num_fields; first += fields_together) {
+    apply_to(apply_rows<fields_together>, first);
+  }
+  for (; first < num_fields; ++first) apply_to(apply_rows<1>, first);
   return is_right;
 }
 

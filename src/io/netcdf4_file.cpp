@@ -291,8 +291,8 @@ bool is_hdf5(std::string_view head) {
 }
 
 // The path is made absolute, so that it is never taken for an address in a network.
-Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
-  path_ = std::filesystem::absolute(path).string();
+Netcdf4File::Netcdf4File(const std::string& path)
+    : library_(netcdf_library()), path_(std::filesystem::absolute(path).string()) {
   number_ = opened(library_, [&](int& number) { return library_.open(path_.c_str(), 0, &number); });
 }
 
