@@ -5,12 +5,8 @@
 #include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
-#include <limits>
 #include <type_traits>
-#include <utility>
 
 #include "io/hdf5_library.h"
 #include "system/checked_product.h"
@@ -182,12 +178,13 @@ bool Hdf5Chunks::take_places(Hdf5Id array) {
 
 bool Hdf5Chunks::take_place(const unsigned long long* begin, const StoredChunk& chunk) {
   if (chunk.size == 0 || chunk.size > 2 * largest_chunk) return false;
-  std::size_t number = 0;
+  std::vector<std::size_t> start(shape_.size());
   for (std::size_t d = 0; d < shape_.size(); ++d) {
-    if (begin[d] % chunk_[d] != 0 || begin[d] >= shape_[d]) return false;
-    number = static_cast<std::size_t>(number * num_along(d) + begin[d] / chunk_[d]);
+    if (begin[d] >= shape_[d]) return false;
+    start[d] = static_cast<std::size_t>(begin[d]);
   }
-  places_[number] = chunk;
+  if (!is_begin(start)) return false;
+  places_[number_of(start)] = chunk;
   return true;
 }
 
