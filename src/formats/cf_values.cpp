@@ -109,31 +109,6 @@ double packing(const io::NetcdfVariable& variable, std::string_view name, double
 
 }  // namespace
 
-double default_fill(io::NetcdfType type) {
-  switch (type) {
-    case io::NetcdfType::int16:
-      return -32767;
-    case io::NetcdfType::int32:
-      return -2147483647;
-    case io::NetcdfType::uint16:
-      return 65535;
-    case io::NetcdfType::uint32:
-      return 4294967295;
-    case io::NetcdfType::int64:
-      return -9223372036854775806.0;
-    case io::NetcdfType::uint64:
-      return 18446744073709551614.0;
-    case io::NetcdfType::float32:
-    case io::NetcdfType::float64:
-      return 0x1.ep+122;  // this is 9.9692099683868690e+36
-    case io::NetcdfType::int8:
-    case io::NetcdfType::uint8:
-    case io::NetcdfType::text:
-      break;
-  }
-  return no_number;
-}
-
 ValueRules::ValueRules(const io::NetcdfVariable& variable)
     : type_(variable.type), lowest_(-infinity), highest_(infinity) {
   scale_ = packing(variable, "scale_factor", 1);
@@ -173,9 +148,10 @@ void ValueRules::read_missing(const io::NetcdfVariable& variable) {
     is_single_ |=
         type_ == io::NetcdfType::float64 && has_type(variable, name, io::NetcdfType::float32);
   }
-  if (io::find_attribute(variable.attributes, "_FillValue") == nullptr) {
+  // Every number of a byte may be a value, so that none is missing unless the file says so.
+  if (io::find_attribute(variable.attributes, "_FillValue") == nullptr && size_of(type_) > 1) {
     // That of 64-bit integers is no double, which the reader knows.
-    (io::is_wide(type_) ? rounded_missing_ : missing_).push_back(as_type(default_fill(type_)));
+    (io::is_wide(type_) ? rounded_missing_ : missing_).push_back(as_type(io::default_fill(type_)));
   }
 }
 

@@ -85,8 +85,4 @@ class ValueRules {
   std::string remark_;
 };
 
-// Returns the number that netCDF writes where nothing was written (NC_FILL_INT and others); NaN for
-// types of one byte and for texts, which have none.
-double default_fill(io::NetcdfType type);
-
 }  // namespace rondel::formats

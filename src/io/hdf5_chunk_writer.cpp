@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/hdf5_chunk_writer.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <mutex>
 #include <utility>
 
 #include "io/netcdf_library.h"
+#include "io/zlib_data.h"
 #include "system/parallel.h"
 
 namespace rondel::io {
@@ -107,14 +106,7 @@ std::vector<unsigned char> Hdf5ChunkWriter::packed(const std::vector<unsigned ch
     unsigned char* const to = shuffled.data() + b * count;
     for (std::size_t i = 0; i < count; ++i) to[i] = values[i * size + b];
   }
-  uLongf length = compressBound(static_cast<uLong>(values.size()));
-  std::vector<unsigned char> result(length);
-  if (compress2(result.data(), &length, shuffled.data(), static_cast<uLong>(shuffled.size()),
-                variable_.deflate) != Z_OK) {
-    return {};
-  }
-  result.resize(length);
-  return result;
+  return zlib_compressed(shuffled, variable_.deflate);
 }
 
 }  // namespace rondel::io

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/hdf5_chunks.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <type_traits>
 
+#include "io/array_rows.h"
 #include "io/hdf5_library.h"
+#include "io/zlib_data.h"
 #include "system/checked_product.h"
 
 namespace rondel::io {
@@ -258,11 +258,7 @@ LargeVector<unsigned char> Hdf5Chunks::values_of(const FileBytes& file, const St
       continue;
     }
     LargeVector<unsigned char> values(wanted);
-    uLongf size = wanted;
-    if (uncompress(values.data(), &size, bytes.data(), static_cast<uLong>(bytes.size())) != Z_OK ||
-        size != wanted) {
-      return {};
-    }
+    if (!zlib_uncompress(bytes, values)) return {};
     bytes.swap(values);
   }
   if (bytes.size() != wanted) return {};
@@ -277,24 +273,13 @@ bool Hdf5Chunks::read(const FileBytes& file, const NetcdfBox& box, const BoxPlac
   const ByteOrder order{is_shuffled ? 1 : value_size_, is_shuffled ? values_per_chunk_ : 1,
                         is_big_endian_};
   const RowCopier copy = row_copier(type_);
-  const std::size_t last = shape_.size() - 1;
-  std::vector<std::size_t> at(shape_.size(), 0);
-  for (;;) {
-    std::size_t from = 0;
-    std::size_t to = 0;
-    for (std::size_t d = 0; d < shape_.size(); ++d) {
-      from = from * static_cast<std::size_t>(chunk_[d]) + at[d];
-      to += at[d] * out.steps[d];
-    }
-    copy(values.data() + from * order.value, order, box.count[last], out.begin + to,
-         out.steps[last]);
-    std::size_t d = last;
-    for (;;) {
-      if (d-- == 0) return true;
-      if (++at[d] < box.count[d]) break;
-      at[d] = 0;
-    }
-  }
+  const BoxLengths dimensions = own_order(shape_.size());
+  for_each_row(box.count, dimensions, steps_of(chunk_), out.steps,
+               [&](std::size_t from, std::size_t to) {
+                 copy(values.data() + from * order.value, order, box.count.back(), out.begin + to,
+                      out.steps.back());
+               });
+  return true;
 }
 
 }  // namespace rondel::io

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The library HDF5, which netCDF-C has loaded. It is asked where the values of a variable are in a
-// file, and given chunks that are compressed already. The members are functions of its C interface, whose binary form is the same since HDF5
-// 1.10.5.
+// file, and given chunks that are compressed already. The members are functions of its C interface,
+// whose binary form is the same since HDF5 1.10.5.
 //
 // in    netCDF-C
 // out   pointers to functions of HDF5

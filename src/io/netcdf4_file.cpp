@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/array_rows.h"
 #include "io/bad_value.h"
 #include "io/hdf5_library.h"
 #include "io/netcdf_groups.h"
@@ -201,43 +202,20 @@ class Netcdf4Header {
   std::vector<int> numbers_;  // by dimension: the number that netCDF-C has for it
 };
 
-// The number that stands for values that were never written: that of the variable, or else that of
-// netCDF for its type (netcdf.h, NC_FILL_*).
-double fill_number(const VariableInFile& variable) {
-  const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
-  if (fill != nullptr && !fill->numbers.empty()) return fill->numbers.front();
-  switch (variable.type) {
-    case NetcdfType::int8:
-      return -127;
-    case NetcdfType::uint8:
-      return 255;
-    case NetcdfType::int16:
-      return -32767;
-    case NetcdfType::uint16:
-      return 65535;
-    case NetcdfType::int32:
-      return -2147483647;
-    case NetcdfType::uint32:
-      return 4294967295;
-    case NetcdfType::float32:
-      return 9.9692099683868690e+36F;
-    default:
-      return 9.9692099683868690e+36;
-  }
-}
-
+// Returns the number that stands for values that were never written.
 template <class T>
 T fill_of(const VariableInFile& variable) {
+  const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
   if constexpr (std::is_same_v<T, double>) {
-    return fill_number(variable);
-  } else if constexpr (!std::is_same_v<T, std::int64_t>) {
-    return {};  // texts
-  } else {
-    const NetcdfAttribute* const fill = find_attribute(variable.attributes, "_FillValue");
+    const bool is_given = fill != nullptr && !fill->numbers.empty();
+    return is_given ? fill->numbers.front() : default_fill(variable.type);
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
     if (fill != nullptr && !fill->integers.empty()) return fill->integers.front();
-    if (variable.type == NetcdfType::uint64) return -2;  // 2^64 - 2
-    if (variable.type == NetcdfType::int64) return -9223372036854775806;
-    return static_cast<T>(fill_number(variable));
+    if (variable.type == NetcdfType::int64) return default_fill_of_int64;
+    if (variable.type == NetcdfType::uint64) return static_cast<T>(default_fill_of_uint64);
+    return static_cast<T>(fill_of<double>(variable));
+  } else {
+    return {};  // texts
   }
 }
 
@@ -262,20 +240,12 @@ void read_stored(const VariableInFile& variable, const std::vector<std::size_t>&
   if (size == 0) return;
   std::vector<T> values(size);
   read(start, there, values.data());
-  // Rows along the last dimension go to their places.
-  const std::size_t row = there.back();
-  for (std::size_t k = 0; k < size / row; ++k) {
-    std::size_t rest = k;
-    std::size_t to = 0;
-    std::size_t step = count.back();
-    for (std::size_t d = count.size() - 1; d-- > 0;) {
-      to += rest % there[d] * step;
-      rest /= there[d];
-      step *= count[d];
-    }
-    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(k * row), row,
-                out.begin() + static_cast<std::ptrdiff_t>(to));
-  }
+  const BoxLengths order = own_order(count.size());
+  for_each_row(there, order, steps_of(there), steps_of(count),
+               [&](std::size_t from, std::size_t to) {
+                 std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), there.back(),
+                             out.begin() + static_cast<std::ptrdiff_t>(to));
+               });
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
+#include "io/array_rows.h"
 #include "io/netcdf4_file.h"
 #include "io/netcdf_slabs.h"
 #include "io/wide_integers.h"
@@ -15,49 +15,11 @@
 namespace rondel::io {
 namespace {
 
-using BoxLengths = std::vector<std::size_t>;
-
 // Returns the number of values in a box.
 std::size_t num_values_of(const BoxLengths& count) {
   std::size_t product = 1;
   for (const std::size_t length : count) product *= length;
   return product;
-}
-
-// Returns the distance of neighbors along each dimension of an array of these lengths, the last
-// dimension of which varies fastest.
-template <class Lengths>
-BoxLengths steps_of(const Lengths& lengths) {
-  BoxLengths steps(lengths.size(), 1);
-  for (std::size_t d = lengths.size(); d-- > 1;) {
-    steps[d - 1] = steps[d] * static_cast<std::size_t>(lengths[d]);
-  }
-  return steps;
-}
-
-// Calls visit(from, to) for the rows of a box along the last of the dimensions in `order`. `from`
-// and `to` are the positions of a row's first value in two arrays, in which neighbors are
-// `from_steps` and `to_steps` apart.
-template <class Visit>
-void for_each_row(const BoxLengths& count, std::span<const std::size_t> order,
-                  const BoxLengths& from_steps, const BoxLengths& to_steps, const Visit& visit) {
-  BoxLengths at(order.size(), 0);
-  std::size_t from = 0;
-  std::size_t to = 0;
-  for (;;) {
-    visit(from, to);
-    std::size_t w = order.size() - 1;
-    for (;;) {
-      if (w-- == 0) return;
-      const std::size_t d = order[w];
-      from += from_steps[d];
-      to += to_steps[d];
-      if (++at[w] < count[d]) break;
-      from -= from_steps[d] * count[d];
-      to -= to_steps[d] * count[d];
-      at[w] = 0;
-    }
-  }
 }
 
 // Returns the lengths of pieces: a chunk, extended from the fastest dimension on as far as there is
@@ -152,8 +114,7 @@ void read_run(const NetcdfReader& file, const VariableInFile& variable, std::uin
     file.read_numbers(variable, begin, out);
     return;
   }
-  BoxLengths order(rank);
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  const BoxLengths order = own_order(rank);
   for_each_slab(
       variable.shape, begin, out.size(),
       [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {

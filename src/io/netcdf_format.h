@@ -37,6 +37,39 @@ constexpr std::size_t size_of(NetcdfType type) {
              : 0;
 }
 
+// The integers of 64 bits that netCDF writes where nobody has written (netcdf.h, NC_FILL_INT64 and
+// NC_FILL_UINT64). They are no doubles.
+inline constexpr std::int64_t default_fill_of_int64 = -9223372036854775806;
+inline constexpr std::uint64_t default_fill_of_uint64 = 18446744073709551614U;
+
+// Returns the number that netCDF writes where nobody has written (netcdf.h, NC_FILL_*), rounded.
+constexpr double default_fill(NetcdfType type) {
+  switch (type) {
+    case NetcdfType::int8:
+      return -127;
+    case NetcdfType::uint8:
+      return 255;
+    case NetcdfType::int16:
+      return -32767;
+    case NetcdfType::uint16:
+      return 65535;
+    case NetcdfType::int32:
+      return -2147483647;
+    case NetcdfType::uint32:
+      return 4294967295;
+    case NetcdfType::int64:
+      return static_cast<double>(default_fill_of_int64);
+    case NetcdfType::uint64:
+      return static_cast<double>(default_fill_of_uint64);
+    case NetcdfType::float32:
+    case NetcdfType::float64:
+      return 0x1.ep+122;  // this is 9.9692099683868690e+36
+    case NetcdfType::text:
+      break;
+  }
+  return 0;
+}
+
 // The tags of the lists in the header.
 inline constexpr std::uint32_t netcdf_dimensions_tag = 10;
 inline constexpr std::uint32_t netcdf_variables_tag = 11;

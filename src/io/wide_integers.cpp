@@ -18,10 +18,6 @@
 namespace rondel::io {
 namespace {
 
-// What netCDF writes where nobody wrote.
-constexpr std::int64_t default_fill_of_int64 = -9223372036854775806;
-constexpr std::uint64_t default_fill_of_uint64 = 18446744073709551614U;
-
 template <class Integer>
 bool is_double_of(Integer value) {
   const auto rounded = static_cast<double>(value);

@@ -28,9 +28,9 @@ SITE = pathlib.Path(netCDF4.__file__).parent.parent
 LIBRARIES = sorted(SITE.glob("net[cC][dD][fF]4.libs/libnetcdf-*"))
 if not LIBRARIES:
     sys.exit(77)
-# The library of netCDF4-python, and the system's, which is older, if there is one.
+# The library of netCDF4-python, with zlib alone, and the system's, which is older, if there is one, with libdeflate.
 ENVIRONMENTS = [
-    {**os.environ, "RONDEL_NETCDF": str(LIBRARIES[0])},
+    {**os.environ, "RONDEL_NETCDF": str(LIBRARIES[0]), "RONDEL_LIBDEFLATE": "none"},
     {name: value for name, value in os.environ.items() if name != "RONDEL_NETCDF"},
 ]
 LENGTHS = {"time": 12, "lat": 36, "lon": 72}

@@ -28,6 +28,7 @@ rondel_add_test(io_test
   formats/unpacked_test.cpp
   io/wide_integers_test.cpp
   io/zip_test.cpp
+  io/zlib_data_test.cpp
   LIBS rondel_geo rondel_test_support nlohmann_json::nlohmann_json ZLIB::ZLIB)
 
 # A program of its own: what a sanitizer of threads needs.
