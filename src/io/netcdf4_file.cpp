@@ -31,14 +31,16 @@ constexpr std::size_t longest_attribute = std::size_t{1} << 24U;
 
 // Returns the number of the file that `open` opens; throws BadValue with the reason if it fails.
 template <class Open>
-int opened(const NetcdfLibrary& library, const Open& open) {
+int opened(const NetcdfLibrary& library, const std::string& path, const Open& open) {
   const NetcdfLock lock(netcdf_library_lock());
   int number = 0;
-  if (const int error = open(number); error != 0) {
-    throw BadValue(std::string("not netCDF-4, or damaged; netCDF-C says: ") +
-                   library.error_text(error));
-  }
-  return number;
+  const int error = open(number);
+  if (error == 0) return number;
+  const char* const why = path.find('\\') == std::string::npos
+                              ? "it is damaged, no netCDF-4, or locked by another program"
+                              : "its name has a backslash";
+  throw BadValue(std::string("netCDF-C cannot open it, maybe since ") + why +
+                 "; it says: " + library.error_text(error));
 }
 
 // Reads the header of a file, group by group. Dimensions, variables and attributes that cannot be
@@ -263,11 +265,12 @@ bool is_hdf5(std::string_view head) {
 // The path is made absolute, so that it is never taken for an address in a network.
 Netcdf4File::Netcdf4File(const std::string& path)
     : library_(netcdf_library()), path_(std::filesystem::absolute(path).string()) {
-  number_ = opened(library_, [&](int& number) { return library_.open(path_.c_str(), 0, &number); });
+  number_ = opened(library_, path_,
+                   [&](int& number) { return library_.open(path_.c_str(), 0, &number); });
 }
 
 Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
-  number_ = opened(library_, [&](int& number) {
+  number_ = opened(library_, path_, [&](int& number) {
     // The file is opened for reading, so that the bytes are not changed.
     return library_.open_memory("memory", 0, bytes.size(), const_cast<char*>(bytes.data()),
                                 &number);
