@@ -202,3 +202,105 @@ def test_what_the_backend_refuses(remap, meshes):
         source["z"].remap(target, backend="rondel", yac_method="nnn")
     with pytest.raises(ValueError, match="Invalid backend"):
         source["z"].remap(target, backend="esmf")
+
+
+@pytest.fixture
+def regrid():
+    module = client("xarray_regrid_rondel", "xarray_regrid", "dask")
+    module.use_by_default()
+    yield module
+    module.use_by_default(False)
+
+
+def field_on(lon, lat, **dims):
+    """A smooth field on axes, for two times."""
+    import xarray as xr
+
+    x, y = np.meshgrid(np.radians(lon), np.radians(lat))
+    values = np.stack([np.sin(y) + np.cos(y) * np.cos(x), np.ones(x.shape)])
+    return xr.DataArray(
+        values,
+        {"time": [5, 7], "latitude": lat, "longitude": lon},
+        name="t",
+        attrs={"units": "K"},
+    ).chunk(dims)
+
+
+def test_conservative_means_are_those_of_the_cells(regrid):
+    """The areas of cells are differences of longitudes times differences of sines of latitudes."""
+    import xarray as xr
+
+    data = field_on(np.arange(0.5, 360), np.arange(-89.5, 90))
+    target = xr.Dataset(
+        coords={"latitude": np.arange(85.0, -90, -10), "longitude": np.arange(-175.0, 180, 10)}
+    )
+    made = data.regrid.conservative(target)
+    assert (made.dims, made.attrs) == (data.dims, data.attrs)
+    np.testing.assert_array_equal(made.latitude, target.latitude)
+    np.testing.assert_array_equal(made.longitude, target.longitude)
+    sines = np.diff(np.sin(np.radians(np.arange(-90, 91))))
+    turned = np.roll(data.values, 180, axis=2).reshape(2, 18, 10, 36, 10)
+    expected = np.einsum("tibjk,ib->tij", turned, sines.reshape(18, 10)) / 10
+    expected /= sines.reshape(18, 10).sum(axis=1)[:, None]
+    np.testing.assert_allclose(made.values[:, ::-1], expected, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("skipna", [True, False])
+def test_missing_values_count_as_the_threshold_says(regrid, skipna):
+    import xarray as xr
+
+    data = field_on(np.arange(0.5, 360), np.arange(-89.5, 90))
+    data[0, :, :3] = np.nan
+    target = xr.Dataset(
+        coords={"latitude": np.arange(-85.0, 90, 10), "longitude": np.arange(5.0, 360, 10)}
+    )
+    for threshold, is_kept in ((0.0, False), (0.25, False), (0.35, True), (1.0, True)):
+        made = data.regrid.conservative(target, skipna=skipna, nan_threshold=threshold)
+        assert np.isfinite(made.values[0, :, 0]).all() == (is_kept and skipna)
+        assert np.isfinite(made.values[0, :, 1:]).all()
+    with pytest.raises(ValueError, match="from 0 to 1"):
+        data.regrid.conservative(target, nan_threshold=1.5)
+
+
+def test_columns_that_go_more_than_once_around(regrid):
+    """Each cell is by itself: the last one overlaps the first."""
+    import xarray as xr
+
+    data = field_on(np.arange(0.5, 360), np.arange(-89.5, 90))
+    rows = {"latitude": np.arange(-80.0, 81, 20)}
+    whole = data.regrid.conservative(
+        xr.Dataset(coords={**rows, "longitude": np.arange(0.0, 360.1, 2.2)})
+    )
+    assert whole.shape == (2, 9, 164)
+    last = data.regrid.conservative(
+        xr.Dataset(coords={**rows, "longitude": np.arange(0.0, 360.1, 2.2)[-3:]})
+    )
+    np.testing.assert_allclose(whole.values[:, :, -3:], last.values, rtol=1e-12)
+    np.testing.assert_allclose(whole.values[1], 1, rtol=1e-12)
+
+
+def test_other_coordinates_are_left_to_the_package(regrid, monkeypatch):
+    import xarray as xr
+
+    def refuse(*_, **__):
+        raise AssertionError("the data are in a plane")
+
+    monkeypatch.setattr(regrid, "regridded", refuse)
+    data = xr.DataArray(np.eye(8), {"x": np.arange(8.0), "y": np.arange(8.0)}, ("x", "y"))
+    target = xr.Dataset(coords={"x": [1.5, 5.5], "y": [1.5, 5.5]})
+    assert data.regrid.conservative(target).shape == (2, 2)
+    assert float(data.regrid.linear(target)[0, 0]) == 0.5
+
+
+def test_any_grid_is_a_target_and_arrays_of_dask_stay_lazy(regrid):
+    data = field_on(np.arange(2.5, 360, 5), np.arange(-87.5, 90, 5), time=1)
+    made = data.regrid.rondel("healpix:3")
+    assert made.chunks is not None
+    assert (made.sizes["time"], made.size) == (2, 2 * 12 * 8**2)
+    # Pixels have equal areas, so that their mean is that of the sphere.
+    sines = np.diff(np.sin(np.radians(np.arange(-90, 91, 5))))
+    assert float(made[0].mean()) == pytest.approx(
+        sines @ data.values[0].mean(axis=1) / 2, abs=1e-12
+    )
+    second = data.regrid.rondel("healpix:3", "conservative_2nd")
+    assert float(abs(second[0] - made[0]).max()) < 0.05
