@@ -46,15 +46,9 @@ CellSet cells_of_sites(const FileName& file, const CellSideOptions& options, Job
   CellFacts facts = cells.facts();
   facts.name = table.name;
   if (table.sites.empty()) throw FileError(table.name + ": " + no_points);
-  const Point& center = triangulation.sphere().center;
-  if (table.is_lonlat() && center == Point{}) {
-    // Given longitudes and latitudes are kept to the digit.
-    facts.centers = table.positions;
-  } else {
-    std::vector<Point> seen = table.sites;
-    for (Point& site : seen) site = {site.x - center.x, site.y - center.y, site.z - center.z};
-    facts.centers = lonlats(seen);
-  }
+  // Given longitudes and latitudes are kept to the digit.
+  facts.centers = table.is_lonlat() ? table.positions
+                                    : lonlats_from(triangulation.sphere().center, table.sites);
   return cells.with_facts(std::move(facts));
 }
 

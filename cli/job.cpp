@@ -88,6 +88,19 @@ void tell_of_columns(const std::string& netcdf, const ReadOptions& read) {
                 ":NAME chooses one of several coordinates of netCDF"});
 }
 
+NetcdfSites Job::read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
+                              std::span<const std::string> names) {
+  const auto [data, variable] = file_and_variable(file);
+  if (!variable.empty()) names = {&variable, 1};
+  NetcdfSites sites;
+  time(Stage::read, [&] { sites = read_sites_on_mesh(data, mesh, names, read.keep_columns); });
+  // Where a column is missing, the error that follows says why.
+  if (!read.keep_columns || !sites.table.columns.empty()) {
+    tell(file_and_variable(mesh).first.path, sites.remarks);
+  }
+  return sites;
+}
+
 NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
                            std::span<const std::string> names) {
   const Clock::time_point start = Clock::now();
@@ -126,7 +139,27 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
 }
 
 // The triangulation has a view of the table's sites, not a copy.
+std::vector<LonLat> lonlats_from(const Point& center, std::vector<Point> points) {
+  for (Point& point : points) {
+    point = {point.x - center.x, point.y - center.y, point.z - center.z};
+  }
+  return lonlats(points);
+}
+
+void move_to(const Point& center, SiteTable& table) {
+  if (!table.is_lonlat() || center == Point{}) return;
+  for (Point& point : table.sites) {
+    point = {point.x + center.x, point.y + center.y, point.z + center.z};
+  }
+  table.positions.clear();
+}
+
 Triangulation Job::triangulate(const SiteTable& table) {
+  if (table.is_lonlat() && sphere().center != Point{}) {
+    throw FileError(table.name +
+                    ": --center is for sites that are x, y, z: longitudes and latitudes are seen "
+                    "from the center of the sphere already");
+  }
   return with_places(table, [&] {
     return delaunay(Sites::view(table.sites), state_->options.build, execution());
   });

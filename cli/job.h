@@ -58,8 +58,12 @@ class Job {
   /// grid. \throws FileError if it cannot be read
   NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
                         std::span<const std::string> names = {});
+  /// Reads sites as read_sites_on_mesh() does, and tells what the mesh lacks.
+  /// \param file  the values, or one of its variables; then `names` may be empty
+  NetcdfSites read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
+                           std::span<const std::string> names);
   /// Triangulates the sites. \throws FileError with the file and line of a site that the library
-  /// does not accept. The result refers to the table's sites, which must outlive it.
+  /// does not accept, and for longitudes and latitudes with --center. The result refers to the table's sites, which must outlive it.
   Triangulation triangulate(const SiteTable& table);
   /// Returns the convex hull of the sites. \throws FileError like triangulate()
   Triangulation hull(const SiteTable& table);
@@ -110,6 +114,12 @@ auto with_places(const SiteTable& table, Work&& work) {
 
 /// Returns for each site whether it is a vertex: neither hidden nor a duplicate of another one.
 std::vector<bool> are_vertices(const Triangulation& triangulation);
+
+/// Returns longitudes and latitudes of points as they are seen from a center.
+std::vector<LonLat> lonlats_from(const Point& center, std::vector<Point> points);
+/// Makes points around a center of longitudes and latitudes, which are seen from there. Tables with
+/// x, y, z stay as they are.
+void move_to(const Point& center, SiteTable& table);
 
 /// Tells that names of columns in `read`, which are for another file, change nothing for this one.
 void tell_of_columns(const std::string& netcdf, const ReadOptions& read);

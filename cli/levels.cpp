@@ -15,6 +15,8 @@
 namespace rondel::cli {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // Returns the texts between the commas, empty ones as well; none of an empty text.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
@@ -34,7 +36,8 @@ double number_of(const std::string& text) {
   return value;
 }
 
-// Rounding removes the error of the product: 3 * 0.1 is 0.30000000000000004, but the level is 0.3.
+// Rounding to 15 digits removes the error of a product: 3 * 0.1 is 0.30000000000000004, but the level
+// is 0.3. What rounding moves by more than that error, two units in the last place, has more digits.
 double rounded_to_15_digits(double value) {
   std::array<char, 32> text{};
   const auto end =
@@ -42,6 +45,8 @@ double rounded_to_15_digits(double value) {
           .ptr;
   double rounded = value;
   double_from(text.data(), end, rounded);
+  const double unit = std::nextafter(std::abs(value), infinity) - std::abs(value);
+  if (std::abs(rounded - value) > 2 * unit) rounded = value;
   return rounded + 0.0;  // turns -0 into 0
 }
 
@@ -71,8 +76,10 @@ std::vector<double> levels_at(double step, std::span<const double> values,
                               const std::string& option) {
   // More levels than this are a step in the wrong unit rather than a map.
   constexpr double most = 10'000;
-  double least = std::numeric_limits<double>::infinity();
-  double largest = -least;
+  // From here on doubles are no multiples of a step one by one.
+  constexpr double most_steps = 0x1p53;
+  double least = infinity;
+  double largest = -infinity;
   for (const double value : values) {
     if (std::isnan(value)) continue;
     least = std::min(least, value);
@@ -81,6 +88,9 @@ std::vector<double> levels_at(double step, std::span<const double> values,
   if (!(least < largest)) return {};
   if (!(largest / step - least / step <= most)) {
     throw UsageError(option + ": there would be more than 10000 levels");
+  }
+  if (std::max(std::abs(least), std::abs(largest)) / step >= most_steps) {
+    throw UsageError(option + ": the step is too small for values this large");
   }
   std::vector<double> levels;
   for (double k = std::floor(least / step); k <= std::ceil(largest / step); ++k) {

@@ -22,7 +22,7 @@ std::vector<double> levels_of(const std::string& text);
 
 /// Returns the multiples of a step that are greater than the least of the values and at most the
 /// largest one, rounded to 15 digits, as people write them. NaN is ignored. \throws UsageError,
-/// which begins with the option, if there are more than 10,000.
+/// which begins with the option, if there are more than 10,000 or they are no doubles.
 std::vector<double> levels_at(double step, std::span<const double> values,
                               const std::string& option);
 

@@ -68,6 +68,7 @@ void QueryJob::prepare() {
   queries_ = job_.read({options_.queries, options_.query_format}, query_options(options_));
   const SiteTable* const tables[] = {&sites_, &queries_};
   require_angles(options_.common.read, tables);
+  move_to(job_.sphere().center, queries_);
   triangulation_ = job_.triangulate(sites_);
   job_.time(Stage::locator, [this] { locator_.emplace(triangulation_); });
 }

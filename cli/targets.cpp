@@ -55,17 +55,8 @@ Weights in_native_cells(const Job& job, const FileName& file, const NetcdfSites&
   });
 }
 
-}  // namespace
-
-NamedGrid grid_of(const std::string& name, GridSides sides) {
-  try {
-    return NamedGrid(name, sides);
-  } catch (const InvalidInput& error) {
-    throw UsageError(error.what());
-  }
-}
-
-Targets read_targets(const FileName& target, const ReadOptions& read) {
+// Reads targets whose longitudes and latitudes are seen from the origin.
+Targets read_given_targets(const FileName& target, const ReadOptions& read, const Point& center) {
   Targets targets;
   const std::string& name = target.path;
   if (NamedGrid::is_name(name)) {
@@ -75,6 +66,7 @@ Targets read_targets(const FileName& target, const ReadOptions& read) {
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);
+    if (center != Point{}) targets.table.positions = targets.side.points;
     return targets;
   }
   if (const auto [file, variable] = file_and_variable(target); is_netcdf_file(file)) {
@@ -97,7 +89,23 @@ Targets read_targets(const FileName& target, const ReadOptions& read) {
     tell(table.name,
          {"left out " + count(table.num_unlocated, "target", "targets") + " without a place"});
   }
-  targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
+  targets.side.points = table.is_lonlat() ? table.positions : lonlats_from(center, table.sites);
+  return targets;
+}
+
+}  // namespace
+
+NamedGrid grid_of(const std::string& name, GridSides sides) {
+  try {
+    return NamedGrid(name, sides);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+}
+
+Targets read_targets(const FileName& target, const ReadOptions& read, const Point& center) {
+  Targets targets = read_given_targets(target, read, center);
+  move_to(center, targets.table);
   return targets;
 }
 
@@ -125,12 +133,8 @@ Weights regrid_weights(Job& job, RegridMethod method, const FileName& file, cons
 
 Extrapolator extrapolator_to(const Targets& targets, const NetcdfSites& grid, const Point& center,
                              const ExtrapolationOptions& options, const Execution& execution) {
-  std::vector<LonLat> places = grid.table.positions;
-  if (!grid.table.is_lonlat()) {
-    std::vector<Point> seen = grid.table.sites;
-    for (Point& site : seen) site = {site.x - center.x, site.y - center.y, site.z - center.z};
-    places = lonlats(seen);
-  }
+  const std::vector<LonLat> places =
+      grid.table.is_lonlat() ? grid.table.positions : lonlats_from(center, grid.table.sites);
   std::vector<Point> points = known_unit_vectors(targets.side.points);
   CompressedRows<Index> neighbors;
   if (options.method == Extrapolation::creep) {

@@ -27,9 +27,9 @@ struct Targets {
   SiteTable table;  ///< the points, and where they come from
   WeightSide side;
 };
-/// Reads the targets of a command. `read` says how tables are read.
+/// Reads the targets of a command, as they are seen from `center`. `read` says how tables are read.
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read
-Targets read_targets(const FileName& target, const ReadOptions& read);
+Targets read_targets(const FileName& target, const ReadOptions& read, const Point& center);
 /// Returns the grid of this name. \throws UsageError for an impossible grid
 NamedGrid grid_of(const std::string& name, GridSides sides = GridSides::parallels);
 

@@ -87,20 +87,6 @@ CellRings cells_of_mesh(Job& job, const ContoursOptions& options, const SiteTabl
   return std::move(native.cells);
 }
 
-// Reads the values, and the places of the mesh that they are on.
-NetcdfSites read_values(Job& job, const ContoursOptions& options) {
-  const FileName file = options.common.source();
-  const std::span<const std::string> names(&options.value, 1);
-  if (options.mesh.empty()) return job.read_grid(file, options.common.read, names);
-  NetcdfSites sites;
-  job.time(Stage::read, [&] { sites = read_sites_on_mesh(file, options.mesh, names); });
-  // Without a column an error follows that says why.
-  if (!sites.table.columns.empty()) {
-    tell(file_and_variable(options.mesh).first.path, sites.remarks);
-  }
-  return sites;
-}
-
 // Traces in the cells of the mesh, of which sites that are masked have no value.
 ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
   const std::string path = file_and_variable(options.common.source()).first.path;
@@ -108,7 +94,11 @@ ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
     throw FileError((path == "-" ? "<stdin>" : path) +
                     ": --method native needs a file of netCDF with a mesh");
   }
-  const NetcdfSites grid = read_values(job, options);
+  const FileName file = options.common.source();
+  const std::span<const std::string> names(&options.value, 1);
+  const NetcdfSites grid = options.mesh.empty()
+                               ? job.read_grid(file, options.common.read, names)
+                               : job.read_on_mesh(file, options.mesh, options.common.read, names);
   const SiteTable& table = grid.table;
   std::vector<double> values = column_values(table, options.value, "--value");
   const std::vector<bool> takes_part = grid.unmasked();
@@ -197,7 +187,7 @@ void add_level_options(CLI::App& parser, ContoursOptions& options) {
           ->type_name("LIST");
   parser
       .add_option("--step", options.step,
-                  "The levels are the multiples of X between the least and the largest value")
+                  "The levels are the multiples of X above the least value, up to the largest one")
       ->check(positive_error)
       ->excludes(levels)
       ->type_name("X");

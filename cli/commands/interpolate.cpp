@@ -45,6 +45,7 @@ struct InterpolateOptions {
   std::string target;                  // --to; "-": standard input
   std::string weights;                 // --weights; empty: values
   std::string weight_format;           // --weight-format
+  std::string mesh;                    // --source; empty: INPUT has the places
   std::string constraints;             // --constraints; empty: faces are Delaunay
   std::vector<std::string> columns;    // --value
   InterpolationOptions interpolation;  // --method, unless it is one of `regrid`
@@ -55,8 +56,9 @@ struct InterpolateOptions {
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
   [[nodiscard]] FileName weights_file() const { return {weights, weight_format}; }
-  // Returns the file of the sources with the name of a variable, if one is named.
+  // Returns the file of the mesh, or that of the sources with the name of a variable, if one is named.
   [[nodiscard]] FileName mesh_file() const {
+    if (!mesh.empty()) return mesh;
     FileName file = source_file();
     if (file_and_variable(file).second.empty() && !columns.empty()) file.path += ":" + columns[0];
     return file;
@@ -134,8 +136,11 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   const auto [file, variable] = file_and_variable(options.source_file());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
-  // The fields must be at the places of the sites, in the same order.
-  const FieldFile in(file, names, table.sites.size(), {}, {}, {table.positions, same_places_deg});
+  // The fields must be at the places of the sites, in the same order. Where those are another file's,
+  // the places of this one do not matter.
+  const FieldFile in = options.mesh.empty() ? FieldFile(file, names, table.sites.size(), {}, {},
+                                                        {table.positions, same_places_deg})
+                                            : FieldFile(file, names, table.sites.size());
   FieldSet out;
   out.num_points = targets.table.sites.size();
   out.arrays = in.fields().arrays;
@@ -230,7 +235,8 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const Interpo
   // Weights of points are not divided by areas. Areas and corners serve programs that read the
   // file.
   file.normalization = "none";
-  file.source.points = grid.table.is_lonlat() ? grid.table.positions : lonlats(grid.table.sites);
+  file.source.points = grid.table.is_lonlat() ? grid.table.positions
+                                              : lonlats_from(job.sphere().center, grid.table.sites);
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
   file.source.mask = grid.mask;
   file.target = std::move(targets.side);
@@ -252,9 +258,11 @@ void require_options(const InterpolateOptions& options, bool has_values) {
   if (!has_values && options.weights.empty()) {
     throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
   }
-  require_separate_files(
-      {{"INPUT", common.input}, {"--to", options.target}, {"--constraints", options.constraints}},
-      {{"--output", common.output}, {"--weights", options.weights}});
+  require_separate_files({{"INPUT", common.input},
+                          {"--to", options.target},
+                          {"--constraints", options.constraints},
+                          {"--source", options.mesh}},
+                         {{"--output", common.output}, {"--weights", options.weights}});
   if (!options.constraints.empty()) require_edge_table(options.constraints);
   const bool is_linear = !options.regrid && options.interpolation.method == Method::linear;
   if (!options.constraints.empty() && !is_linear) {
@@ -287,11 +295,21 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
-  const NetcdfSites grid = job.read_grid(options.source_file(), read, options.columns);
+  if (!options.mesh.empty() && (!is_netcdf || options.source_file().path == "-")) {
+    throw UsageError("--source: the values must be those of a file of netCDF");
+  }
+  if (!options.mesh.empty() && options.columns.empty() &&
+      file_and_variable(options.source_file()).second.empty()) {
+    throw UsageError("--source: --value NAME says which variable is on the mesh");
+  }
+  const FileName source = options.source_file();
+  const NetcdfSites grid = options.mesh.empty()
+                               ? job.read_grid(source, read, options.columns)
+                               : job.read_on_mesh(source, options.mesh, read, options.columns);
   const SiteTable& table = grid.table;
   const std::optional<EdgeTable> edges = edges_of(options, table);
   const InterpolateMethod method = {options.interpolation, edges ? &*edges : nullptr};
-  Targets targets = read_targets(options.target_file(), common.read);
+  Targets targets = read_targets(options.target_file(), common.read, common.build.sphere.center);
   const SiteTable* const tables[] = {&table, &targets.table};
   require_angles(common.read, tables);
   for (const SiteTable* const side : tables) {
@@ -372,6 +390,11 @@ void add_constraints(CLI::App& parser, InterpolateOptions& options) {
       .add_option("--constraints", options.constraints,
                   "Edges between sites, across which --method linear mixes no values: .csv, two\n"
                   "columns of indices of sites from 0, as for rondel triangulate")
+      ->type_name("FILE");
+  parser
+      .add_option("--source", options.mesh,
+                  "Where INPUT has no places: netCDF with the mesh at whose nodes or cells the\n"
+                  "values are")
       ->type_name("FILE");
 }
 

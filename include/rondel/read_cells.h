@@ -158,10 +158,11 @@ RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const s
 /// else another one.
 /// \param data  netCDF, whose own places do not matter
 /// \param mesh  netCDF with a mesh; `FILE.nc:NAME` names a variable or a topology
-/// \param names  the fields, at least one; those with one value at each place are columns
+/// \param names  the fields, at least one
+/// \param keep_columns  whether fields with one value at each place become columns of the table
 /// \throws FileError if the field has neither length, or the mesh as many nodes as cells, or some of
 ///         the places are missing
 RONDEL_API NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
-                                          std::span<const std::string> names);
+                                          std::span<const std::string> names, bool keep_columns);
 
 }  // namespace rondel

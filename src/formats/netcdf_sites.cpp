@@ -238,7 +238,7 @@ bool are_at_nodes(const io::VariableInFile& variable, const PlacesOfMesh& mesh) 
 }  // namespace
 
 NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
-                               std::span<const std::string> names) {
+                               std::span<const std::string> names, bool keep_columns) {
   const system::ArithmeticScope arithmetic;
   io::require_no_pipe(data.path);
   PlacesOfMesh places = places_of_mesh(mesh);
@@ -262,7 +262,9 @@ NetcdfSites read_sites_on_mesh(const FileName& data, const FileName& mesh,
     throw FileError(mesh_name + ": " + (is_of_nodes ? "node " : "the center of cell ") +
                     std::to_string(missing - sites.table.positions.begin()) + " has no place");
   }
-  add_columns(FieldFile(data, names, sites.table.positions.size()), names, sites);
+  if (keep_columns) {
+    add_columns(FieldFile(data, names, sites.table.positions.size()), names, sites);
+  }
   sites.shape = {sites.table.positions.size()};
   sites.table.name = data.path;
   sites.table.first_line = 0;

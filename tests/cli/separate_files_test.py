@@ -54,7 +54,7 @@ COMMANDS = {
     "nearest": ("{INPUT} {QUERIES}", ["INPUT", "QUERIES"], {"--output": ".csv"}),
     "interpolate": (
         "{INPUT} --value v --to {--to}",
-        ["INPUT", "--to", "--constraints"],
+        ["INPUT", "--to", "--constraints", "--source"],
         {"--output": ".nc", "--weights": ".nc"},
     ),
     "regrid": ("{INPUT} {TARGET}", ["INPUT", "TARGET"], {"--output": ".nc"}),

@@ -263,7 +263,7 @@ void test_weights(std::string_view bytes) {
     if (!fields.arrays.empty()) test_slices(folder, path, fields);
     for (const FieldArray& array : fields.arrays) {
       expect_answer([&] {
-        const NetcdfSites sites = read_sites_on_mesh(path, path, {&array.name, 1});
+        const NetcdfSites sites = read_sites_on_mesh(path, path, {&array.name, 1}, true);
         require(sites.table.columns.size() <= 1, "one field is one column");
         require(sites.table.positions.size() == sites.table.sites.size(), "sites have positions");
         require(sites.unmasked().size() == sites.table.sites.size(), "each takes part or not");

@@ -311,10 +311,13 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*lon.shape, 3)
 
 
-def target_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
-    """Unit vectors of targets: errors name a target, not a site."""
+def target_vectors(lon: ArrayLike, lat: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
+    """Targets at a distance of 1 from the center of the sphere, from which longitudes and
+    latitudes are seen: errors name a target, not a site.
+    """
     try:
-        return unit_vectors(lon, lat)
+        rays = unit_vectors(lon, lat)
+        return rays if tuple(center) == ORIGIN else rays + np.asarray(center)
     except InvalidInput as error:
         text = str(error)
         if text.startswith("site "):

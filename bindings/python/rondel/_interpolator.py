@@ -31,17 +31,17 @@ def _triangulated(points: Any) -> SphericalDelaunay:
     return delaunay(as_points(array))
 
 
-def _as_rays(xi: tuple[Any, ...]) -> FloatArray:
-    """The targets of f(points), f((lon, lat)) or f(lon, lat)."""
+def _as_rays(xi: tuple[Any, ...], center: FloatArray) -> FloatArray:
+    """The targets of f(points), f((lon, lat)) or f(lon, lat), which are seen from the center."""
     if len(xi) == 1 and isinstance(xi[0], tuple):
         xi = xi[0]
     if len(xi) == 2:
-        return target_vectors(*xi)
+        return target_vectors(*xi, center)
     if len(xi) != 1:
         raise TypeError(f"targets are points, or longitudes and latitudes, not {len(xi)} arrays")
     array = as_floats(xi[0], "targets")
     if array.ndim and array.shape[-1] == 2:
-        return target_vectors(array[..., 0], array[..., 1])
+        return target_vectors(array[..., 0], array[..., 1], center)
     return array
 
 
@@ -130,8 +130,8 @@ class SphericalInterpolator(Described):
             If a target is not finite, is the center, or has a latitude outside [-90, 90].
 
         """
-        rays = _as_rays(xi)
         tri, method, options = self._triangulation, self._method, self._options
+        rays = _as_rays(xi, tri.center)
         found = np.asarray(tri.interpolate(self._values, rays, method, **options))
         if not np.isnan(self._fill) and np.isnan(found).any():
             suspects = np.isnan(found).any(axis=tuple(range(self._values.ndim - 1)))

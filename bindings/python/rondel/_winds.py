@@ -128,6 +128,8 @@ class VectorInterpolation(Interpolation):
         to_east, to_north = directions(*np.moveaxis(self.lonlat, -1, 0))
         vectors = u[..., None] * to_east + v[..., None] * to_north
         lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
-        found = self.interpolate_vectors(vectors, target_vectors(lon, lat), method, **options)
+        found = self.interpolate_vectors(
+            vectors, target_vectors(lon, lat, self.center), method, **options
+        )
         to_east, to_north = directions(lon, lat)
         return (found * to_east).sum(axis=-1), (found * to_north).sum(axis=-1)

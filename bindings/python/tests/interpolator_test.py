@@ -100,3 +100,28 @@ def test_wrong_input():
     with pytest.raises(TypeError, match="not 3 arrays"):
         rondel.SphericalInterpolator((LON, LAT), VALUES)(0, 0, 0)
     assert repr(rondel.SphericalInterpolator((LON, LAT), VALUES)).endswith("150 points, sibson>")
+
+
+def test_longitudes_and_latitudes_are_seen_from_the_center():
+    center = np.array([10.0, -3.0, 0.5])
+    points = clouds.uniform(200, 3)
+    around = rondel.delaunay(points + center, center=center)
+    plain = rondel.delaunay(points)
+    lon, lat = rondel.lonlat(clouds.uniform(50, 4)).T
+    values = points[:, 2] + points[:, 0]
+    for method in ("nearest", "linear", "sibson", "cubic"):
+        found = rondel.SphericalInterpolator(around, values, method)
+        wanted = rondel.SphericalInterpolator(plain, values, method)
+        np.testing.assert_allclose(found(lon, lat), wanted(lon, lat), atol=1e-12)
+        np.testing.assert_allclose(
+            found(np.stack([lon, lat], axis=1)), wanted(lon, lat), atol=1e-12
+        )
+    at_sites = rondel.SphericalInterpolator(around, values, "nearest")(*around.lonlat.T)
+    np.testing.assert_array_equal(at_sites, values)
+    east, north = np.cos(points[:, 0]), points[:, 1]
+    for found, wanted in zip(
+        around.interpolate_winds(east, north, lon, lat),
+        plain.interpolate_winds(east, north, lon, lat),
+        strict=True,
+    ):
+        np.testing.assert_allclose(found, wanted, atol=1e-12)
