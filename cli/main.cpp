@@ -20,6 +20,7 @@
 #include "help.h"
 #include "job.h"
 #include "process.h"
+#include "python_libraries.h"
 #include "rondel/version.h"
 
 namespace rondel::cli {
@@ -195,6 +196,7 @@ int run_and_report(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   rondel::cli::prepare_process();
+  rondel::cli::use_netcdf_of_python();
   const std::vector<const char*> arguments =
       rondel::cli::without_help_command(rondel::cli::arguments_of_process(argc, argv));
   return rondel::cli::run_and_report(static_cast<int>(arguments.size()), arguments.data());

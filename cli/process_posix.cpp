@@ -3,6 +3,9 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
 
 #include <array>
 #include <atomic>
@@ -75,6 +78,18 @@ const std::atomic<bool>& interrupted_by_user() {
 
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv) {
   return {argv, argv + argc};
+}
+
+std::filesystem::path path_of_executable() {
+  std::error_code error;
+#ifdef __APPLE__
+  std::array<char, 4096> path{};
+  auto size = static_cast<std::uint32_t>(path.size());
+  if (_NSGetExecutablePath(path.data(), &size) != 0) return {};
+  return std::filesystem::canonical(path.data(), error);
+#else
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+#endif
 }
 
 bool has_terminal() { return isatty(STDERR_FILENO) != 0; }

@@ -61,6 +61,13 @@ std::vector<const char*> arguments_of_process(int argc, const char* const* argv)
 }
 
 // The system's terminals obey sequences of control characters after they are asked to.
+std::filesystem::path path_of_executable() {
+  std::wstring path(32768, L'\0');  // the longest path of Windows
+  const DWORD size = GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
+  path.resize(size < path.size() ? size : 0);
+  return path;
+}
+
 bool has_terminal() {
   const HANDLE console = ::GetStdHandle(STD_ERROR_HANDLE);
   DWORD mode = 0;

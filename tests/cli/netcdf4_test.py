@@ -15,6 +15,7 @@ import os
 import pathlib
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -502,6 +503,29 @@ class Netcdf4(unittest.TestCase):
             )
             refused = f"{first[:60]}..." if len(first) > 256 else second
             self.assertIn(f'rondel: t.nc4: variable "{refused}": netCDF-C says: ', said)
+
+    @unittest.skipUnless(sys.platform == "linux", "the loader of Linux tells what it loads")
+    def test_the_library_of_the_environment_that_the_tool_is_in(self):
+        """pip installs the command beside the packages, whose wheel of netCDF4 has the library."""
+        packages = self.folder / "lib/python3.11/site-packages"
+        packages.mkdir(parents=True)
+        (packages / LIBRARIES[0].parent.name).symlink_to(LIBRARIES[0].parent)
+        (self.folder / "bin").mkdir()
+        tool = self.folder / "bin/rondel"
+        shutil.copy(TOOL, tool)
+        with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
+            add_grid(data)
+        environment = {k: v for k, v in os.environ.items() if k != "RONDEL_NETCDF"}
+        done = subprocess.run(
+            [tool, "remap", "ok.nc", "grid:60", "-o", "w.nc"],
+            cwd=self.folder,
+            env={**environment, "LD_DEBUG": "files"},
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        self.assertEqual(done.returncode, 0)
+        self.assertIn(str(packages / LIBRARIES[0].parent.name / LIBRARIES[0].name), done.stderr)
 
     def test_without_the_library_it_says_what_to_install(self):
         with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
