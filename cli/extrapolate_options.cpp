@@ -20,8 +20,10 @@ void add_extrapolate_options(CLI::App& parser, CommonOptions& common, Extrapolat
       ->type_name("WORD");
   const CLI::Option* const distance =
       parser
-          .add_option("--extrapolate-distance", options.limits.max_distance_km,
-                      "How far from a target sources with values may be (default: any)")
+          .add_option(
+              "--extrapolate-distance", options.limits.max_distance_km,
+              "How far from a target sources with values may be, on a sphere with a radius of\n"
+              "6371.229 km (default: any)")
           ->check([](const std::string& text) { return range_error(text, 0, 1e9); })
           ->type_name("KM");
   const CLI::Option* const sources =

@@ -83,7 +83,7 @@ void configure(CLI::App& tool) {
       "  rondel generate uniform -n 1000 -o sites.csv\n"
       "  rondel delaunay sites.csv -o triangles.ply\n"
       "  rondel voronoi sites.csv -o cells.geojson\n"
-      "  rondel plot sites.csv -o globe.png");
+      "  rondel plot sites.csv -o globe.html");
 }
 
 // Names the unknown command; the parser would only say that it did not expect the word.

@@ -138,8 +138,16 @@ void require_angles(const ReadOptions& read, std::span<const SiteTable* const> t
 CLI::Validator one_of(const std::vector<std::string>& words, const std::string& otherwise) {
   std::string name(mark_of_words);
   for (const std::string& word : words) name += ' ' + word;
-  const auto check = [words, otherwise](const std::string& text) {
-    return std::ranges::count(words, text) != 0 ? std::string() : "'" + text + "' " + otherwise;
+  std::string wrong = otherwise;
+  if (wrong.empty()) {
+    wrong = "is none of ";
+    for (const std::string& word : words) {
+      if (&word != &words.front()) wrong += ", ";
+      wrong += word;
+    }
+  }
+  const auto check = [words, wrong](const std::string& text) {
+    return std::ranges::count(words, text) != 0 ? std::string() : "'" + text + "' " + wrong;
   };
   return {check, {}, name};
 }

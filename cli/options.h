@@ -172,9 +172,8 @@ std::vector<std::string> keys_of(const std::unordered_map<std::string, Value>& c
 }
 
 /// Returns a check that a text is one of these words, which shells complete (completion.h).
-/// \param otherwise  ends the message "'foo' is not a choice"
-CLI::Validator one_of(const std::vector<std::string>& words,
-                      const std::string& otherwise = "is not a choice");
+/// \param otherwise  ends the message "'foo' is none of linear, nearest"; empty: like this
+CLI::Validator one_of(const std::vector<std::string>& words, const std::string& otherwise = {});
 
 /// Returns the words that the check of an option lets through; none if it has no such check.
 std::vector<std::string> words_of(CLI::Option& option);

@@ -311,8 +311,9 @@ Command add_regrid_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel regrid temperature.nc healpix:4 -o pixels.nc\n"
       "  rondel regrid temperature.nc grid:1 --method linear -o one-degree.nc\n"
-      "  rondel regrid temperature.nc countries.geojson -o means.csv\n"
-      "  rondel regrid temperature.nc countries.geojson --statistics mean,max -o extremes.csv\n"
+      "  rondel regrid temperature.nc countries.geojson --overlap each -o means.csv\n"
+      "  rondel regrid temperature.nc countries.geojson --overlap each --statistics mean,max \\\n"
+      "      -o extremes.csv\n"
       "  rondel regrid ocean.nc grid:1 --extrapolate creep --extrapolate-levels 3 -o filled.nc\n"
       "  rondel regrid winds.nc healpix:6 --vector u10,v10 -o winds-on-pixels.nc\n"
       "  rondel regrid wrf.nc grid:0.1 --corners made -o means.nc");
