@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -146,6 +147,20 @@ TEST(interpolation_places, vectors_are_tangent_and_several_at_once) {
       const Point& u = targets[t];
       EXPECT_NEAR(both[t].x * u.x + both[t].y * u.y + both[t].z * u.z, 0, 1e-15);
     }
+  }
+}
+
+// A mean is a number where the sum of the values is none.
+TEST(interpolation_places, means_of_the_largest_numbers_are_numbers) {
+  const Interpolator interpolator(delaunay(shared));
+  const double largest = std::numeric_limits<double>::max();
+  const std::vector<double> field(shared.size(), largest);
+  const std::vector<double> lowest(shared.size(), -largest);
+  const InterpolationOptions mean = {.method = Method::nearest, .shared_place = SharedPlace::mean};
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    const std::vector<Point> at = {shared[i]};
+    EXPECT_NEAR(interpolator.values(field, at, mean).front() / largest, 1, 1e-15);
+    EXPECT_NEAR(interpolator.values(lowest, at, mean).front() / largest, -1, 1e-15);
   }
 }
 
