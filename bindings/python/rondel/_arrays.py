@@ -38,8 +38,8 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         raise TypeError(f"{name} must be real numbers, not {in_words(array)}")
     is_list = isinstance(values, (list, tuple)) and array.dtype.kind == "f"
     if is_list and np.any(np.abs(array) >= EXACT):  # NumPy has rounded integers beside others
-        _require_doubles(np.asarray(values, object), name)
-    _require_doubles(array, name)
+        require_doubles(np.asarray(values, object), name)
+    require_doubles(array, name)
     try:
         return np.require(array, np.float64, ["C", "A"])
     except (TypeError, ValueError) as error:
@@ -48,13 +48,13 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         raise TypeError(f"{name} must be real numbers: {error}") from None
 
 
-def _require_doubles(array: npt.NDArray[Any], name: str) -> None:
+def require_doubles(array: npt.NDArray[Any], name: str, verb: str = "have") -> None:
     """Refuses integers of 64 bits, or more in arrays of objects, that no double is equal to."""
     for index in _large_integers(array):
         value = int(array.flat[index])
         if not is_double(value):
             at = int(np.unravel_index(index, array.shape)[-1]) if array.ndim else 0
-            raise InvalidInput(f"{name} have the integer {value}, which is no double", at)
+            raise InvalidInput(f"{name} {verb} the integer {value}, which is no double", at)
 
 
 def _large_integers(array: npt.NDArray[Any]) -> list[int]:
@@ -385,7 +385,7 @@ def unmasked(values: Any, name: str = "values") -> Any:
         values = stacked(values)
     if np.ma.isMaskedArray(values):
         if values.dtype.kind in "iuO":
-            _require_doubles(np.ma.filled(values, 0), name)
+            require_doubles(np.ma.filled(values, 0), name)
         return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
     array = plain(values)
     if array.dtype.kind != "O":
@@ -394,7 +394,7 @@ def unmasked(values: Any, name: str = "values") -> Any:
     missing = np.array(np.frompyfunc(is_missing, 1, 1)(array), bool)
     if any(isinstance(value, str) for value in array.flat):
         return values
-    _require_doubles(array, name)
+    require_doubles(array, name)
     try:
         return np.where(missing, np.nan, array).astype(np.float64)
     except (TypeError, ValueError):

@@ -46,10 +46,14 @@ def at_its_own_places(path, chunks=None):
         return np.asarray(rondel.Regridder(ds, AXES, "nearest_s2d")(ds.t).values, np.float64)
 
 
-def by_tool(path, folder):
+def run_tool(path, folder):
     rondel.Regridder(AXES, AXES, "nearest_s2d").to_netcdf(folder / "w.nc")
     command = [TOOL, "apply", folder / "w.nc", f"{path}:t", "-o", folder / "out.npy", "--quiet"]
-    subprocess.run(list(map(str, command)), check=True, capture_output=True)
+    return subprocess.run(list(map(str, command)), check=False, capture_output=True, text=True)
+
+
+def by_tool(path, folder):
+    run_tool(path, folder).check_returncode()
     return np.load(folder / "out.npy").reshape(3, 4)
 
 
@@ -186,3 +190,84 @@ def test_only_unmapped_targets_are_zero(method):
     found = rondel.Regridder(source, masked, method, unmapped_to_nan=False)(field)
     assert np.isnan(found[0, 1])
     assert not (found == 0).any()
+
+
+NO_DOUBLE = 2**53 + 1
+WIDE = {
+    "as it is": ("i8", {}, None, 2**53),
+    "no double": ("i8", {}, None, NO_DOUBLE),
+    "beside a fill value": ("i8", {}, NO_DOUBLE, 2**53),
+    "the fill value": ("i8", {}, NO_DOUBLE, NO_DOUBLE),
+    "another fill value": ("i8", {}, -1, NO_DOUBLE),
+    "above": ("i8", {"valid_max": np.int64(NO_DOUBLE)}, None, 2**53 + 2),
+    "at the end": ("i8", {"valid_max": np.int64(NO_DOUBLE)}, None, 2**53),
+    "below": ("i8", {"valid_range": np.array([-NO_DOUBLE, 9])}, None, -(2**53) - 2),
+    "outside and no double": ("i8", {"valid_min": np.int64(0)}, None, -NO_DOUBLE),
+    "never written": ("i8", {}, None, -(2**63) + 2),
+    "least": ("i8", {}, None, -(2**63)),
+    "unsigned": ("u8", {}, 2**64 - 1, 2**64 - 1),
+    "unsigned, never written": ("u8", {}, None, 2**64 - 2),
+    "unsigned, no double": ("u8", {}, None, 2**64 - 1),
+    "missing twice": ("i8", {"missing_value": np.array([5, NO_DOUBLE])}, -7, NO_DOUBLE),
+}
+
+
+@pytest.mark.skipif(TOOL is None, reason="needs the command")
+@pytest.mark.parametrize("case", WIDE)
+def test_integers_of_64_bits_are_compared_exactly(case, tmp_path):
+    kind, attributes, fill, value = WIDE[case]
+    raw = np.arange(12).reshape(3, 4).astype(kind)
+    raw[1, 2] = value
+    path = tmp_path / "wide.nc"
+    write(path, kind, attributes, raw, fill)
+    with xarray.open_dataset(path, mask_and_scale=False) as opened:
+        ds = opened.load()
+    by_tool = run_tool(path, tmp_path)
+    for chunks in (None, {"lat": 1}):
+        if chunks is not None:
+            pytest.importorskip("dask")
+            ds = ds.chunk(chunks)
+        regridder = rondel.Regridder(ds, AXES, "nearest_s2d")
+        if by_tool.returncode == 0:
+            expected = np.load(tmp_path / "out.npy").reshape(3, 4)
+            found = ds.t.rondel.interpolate((LON, LAT), "nearest", grid=True)
+            for there in (regridder(ds.t), found):
+                assert np.array_equal(there, expected, equal_nan=True)
+        else:
+            assert f"{value} is no double" in by_tool.stderr
+            words = f"'t' has the integer {value}, which is no double"
+            with pytest.raises(rondel.InvalidInput, match=words):
+                np.asarray(regridder(ds.t))
+            with pytest.raises(rondel.InvalidInput, match=words):
+                np.asarray(ds.t.rondel.interpolate((LON, LAT), "nearest", grid=True))
+
+
+@pytest.mark.parametrize("fill", [NO_DOUBLE, np.int64(NO_DOUBLE), np.array([NO_DOUBLE])])
+def test_attributes_in_memory_are_compared_exactly(fill):
+    values = np.full((3, 4), 7)
+    values[0, :2] = 2**53, NO_DOUBLE
+    field = xarray.DataArray(values, AXES, ("lat", "lon"), "t", {"_FillValue": fill})
+    found = field.rondel.interpolate((LON, LAT), "nearest", grid=True)
+    assert found.values[0, :2].tolist()[0] == 2**53
+    assert np.isnan(found).values.nonzero() == ([0], [1])
+
+
+def test_integers_that_xarray_has_rounded_are_told(tmp_path):
+    raw = np.arange(12).reshape(3, 4)
+    raw[1, 2] = NO_DOUBLE
+    write(tmp_path / "wide.nc", "i8", {}, raw, fill=-1)
+    with pytest.warns(UserWarning, match="'t': 1 of 12 numbers were 64-bit integers from 2"):
+        at_its_own_places(tmp_path / "wide.nc")
+    raw[1, 2] = 2**53 - 1
+    write(tmp_path / "exact.nc", "i8", {}, raw, fill=-1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert np.array_equal(at_its_own_places(tmp_path / "exact.nc"), raw)
+
+
+def test_vectors_of_integers_are_not_rounded():
+    values = np.full((3, 4), NO_DOUBLE)
+    ds = xarray.Dataset(dict.fromkeys("uv", (("lat", "lon"), values)), AXES)
+    regridder = rondel.Regridder(ds, AXES, "nearest_s2d")
+    with pytest.raises(rondel.InvalidInput, match="'u' has the integer 9007199254740993"):
+        regridder(ds, vectors=[("u", "v")])
