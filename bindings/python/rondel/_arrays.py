@@ -34,7 +34,7 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         hint = "; points have x (longitude) and y (latitude)"
         raise TypeError(f"{name} must be real numbers, not geometries{hint}")
     array = np.asarray(values)
-    if array.dtype.kind not in "biufO":
+    if array.dtype.kind not in "biufO" or _has_text(array):
         raise TypeError(f"{name} must be real numbers, not {in_words(array)}")
     is_list = isinstance(values, (list, tuple)) and array.dtype.kind == "f"
     if is_list and np.any(np.abs(array) >= EXACT):  # NumPy has rounded integers beside others
@@ -111,9 +111,16 @@ def as_mask(values: Any, name: str) -> BoolArray:
     return (array != 0) & ~missing
 
 
+def _has_text(array: npt.NDArray[Any]) -> bool:
+    """Whether an array of objects has a text or bytes, which NumPy would read as a number."""
+    if array.dtype.kind != "O":
+        return False
+    return any(isinstance(value, (str, bytes, bytearray)) for value in array.flat)
+
+
 def in_words(array: npt.NDArray[Any]) -> str:
-    if array.dtype.kind == "O" and any(isinstance(value, str) for value in array.flat):
-        return "text"
+    if _has_text(array):
+        return "text" if any(isinstance(value, str) for value in array.flat) else "bytes"
     words = {"U": "text", "S": "bytes", "T": "text", "c": "complex numbers", "M": "times"}
     return words.get(array.dtype.kind, str(array.dtype))
 
@@ -384,15 +391,17 @@ def unmasked(values: Any, name: str = "values") -> Any:
     if isinstance(values, (list, tuple)) and any(map(np.ma.isMaskedArray, values)):
         values = stacked(values)
     if np.ma.isMaskedArray(values):
-        if values.dtype.kind in "iuO":
-            require_doubles(np.ma.filled(values, 0), name)
+        filled = np.ma.filled(values, 0) if values.dtype.kind in "iuOSU" else values
+        if filled.dtype.kind in "SU" or _has_text(filled):
+            raise TypeError(f"{name} must be real numbers, not {in_words(filled)}")
+        require_doubles(filled, name)
         return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
     array = plain(values)
     if array.dtype.kind != "O":
         # Arrays of pandas have a mask also where they miss nothing.
         return array if np.ma.is_masked(values) else values
     missing = np.array(np.frompyfunc(is_missing, 1, 1)(array), bool)
-    if any(isinstance(value, str) for value in array.flat):
+    if _has_text(array):
         return values
     require_doubles(array, name)
     try:

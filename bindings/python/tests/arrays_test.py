@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What goes in and comes out: copies, types, errors."""
 
+import decimal
+import fractions
 import gc
 import os
 import pickle
@@ -421,6 +423,52 @@ def test_integers_that_no_double_equals_are_refused():
         with pytest.raises(rondel.InvalidInput, match="no double") as caught:
             tri.interpolate(values, there, "nearest")
         assert caught.value.index == 3
+
+
+def objects(*values):
+    return np.array(values, object)
+
+
+TEXTS = {
+    "text": lambda _: objects(1, 2, 3, "5"),
+    "with underscores": lambda _: objects("1_0", 2, 3, 4),
+    "bytes": lambda _: objects(1, b"1", 2, 3),
+    "missing beside": lambda _: objects(1, None, "2", np.nan),
+    "masked": lambda _: np.ma.array(objects(1, 2, 3, "5"), mask=[1, 0, 0, 0]),
+    "masked texts": lambda _: np.ma.array(["1", "2", "3", "4"], mask=[1, 0, 0, 0]),
+    "categories": lambda pandas: pandas.Categorical(["1", "2", "1", "2"]),
+    "column": lambda pandas: pandas.Series(["1", "2", "3", "4"], dtype=object),
+    "texts of pandas": lambda pandas: pandas.array(["1", "2", None, "4"], dtype="string"),
+}
+
+
+@pytest.mark.parametrize("case", TEXTS)
+def test_texts_in_arrays_of_objects_are_no_numbers(case):
+    values = TEXTS[case](pytest.importorskip("pandas"))
+    words = "real numbers, not (text|bytes)"
+    lon, lat = [0, 90, 180, 0], [0, 0, 0, 90]
+    tri = rondel.delaunay_lonlat(lon, lat)
+    there = rondel.unit_vectors(lon, lat)
+    with pytest.raises(TypeError, match=f"values must be {words}"):
+        tri.interpolate(values, there, "nearest")
+    with pytest.raises(TypeError, match=f"values must be {words}"):
+        tri.weights(there, "nearest").apply(values)
+    if np.ma.isMaskedArray(values):
+        return  # is refused as coordinates for its mask
+    with pytest.raises(TypeError, match=f"lat must be {words}"):
+        rondel.unit_vectors(lon, values)
+    with pytest.raises(TypeError, match=f"lon must be {words}"):
+        rondel.delaunay_lonlat(values, lat)
+
+
+def test_numbers_in_arrays_of_objects_are_numbers():
+    pandas = pytest.importorskip("pandas")
+    lon, lat = [0, 90, 180, 0], [0, 0, 0, 90]
+    tri = rondel.delaunay_lonlat(objects(0, 90.0, np.int8(90) * 2, False), lat)
+    there = rondel.unit_vectors(lon, lat)
+    values = objects(fractions.Fraction(1, 2), None, pandas.NA, decimal.Decimal("0.25"))
+    found = tri.interpolate(values, there, "nearest")
+    assert np.array_equal(found, [0.5, np.nan, np.nan, 0.25], equal_nan=True)
 
 
 def test_the_degrees_of_points_do_not_depend_on_where_they_are_in_memory():
