@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import as_floats
+from ._arrays import as_floats, by_names
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._diagram import Cells
 from ._errors import InvalidInput
@@ -46,8 +46,8 @@ def area_weights(
     Parameters
     ----------
     lat, lon : array_like, shape (...)
-        Latitudes and longitudes of the points in degrees, broadcast against each other. Latitudes,
-        from -90 to 90, come first.
+        Latitudes and longitudes of the points in degrees, broadcast against each other as in
+        `unit_vectors`. Latitudes, from -90 to 90, come first.
     edge : {'sphere', 'mirror'} or regions, optional
         What a cell is at the border of a domain. 'sphere' (default): cells are not cut, so that
         they cover the sphere; right for points all over the globe. 'mirror': the cell of a point
@@ -108,6 +108,7 @@ def area_weights(
     if isinstance(edge, str) and edge not in ("sphere", "mirror"):
         hint = "a path of a file is a pathlib.Path"
         raise ValueError(f"edge must be 'sphere', 'mirror' or regions, not {edge!r}; {hint}")
+    lon, lat = by_names(lon, lat)
     lats, lons = as_floats(lat, "lat"), as_floats(lon, "lon")
     lats, lons = np.broadcast_arrays(lats, lons)
     if lats.size == 0:

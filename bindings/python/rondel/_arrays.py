@@ -7,6 +7,7 @@ from __future__ import annotations
 import operator
 import os
 import re
+import sys
 from fractions import Fraction
 from typing import Any, TypeVar
 
@@ -186,8 +187,45 @@ def as_queries(xi: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     return array.reshape(-1, 3), array.shape[:-1]
 
 
+def _are_labeled(*arrays: Any) -> bool:
+    """Whether all arrays are those of xarray, whose dimensions have names."""
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and all(isinstance(array, xarray.DataArray) for array in arrays)
+
+
+def by_names(lon: Any, lat: Any) -> tuple[Any, Any]:
+    """The same; of two arrays of xarray as broadcast by the names of their dimensions: in the order
+    of the longitudes or, where these differ, those of the latitudes first.
+    """
+    if not _are_labeled(lon, lat):
+        return lon, lat
+    import xarray
+
+    lons, lats = lon.variable, lat.variable
+    if set(lons.dims) == set(lats.dims):
+        return lons, lats.transpose(*lons.dims)
+    # Of coordinates only the names count, so that none is missing where they differ.
+    lats, lons = xarray.broadcast(xarray.DataArray(lats), xarray.DataArray(lons))
+    return lons.variable, lats.variable
+
+
+def values_by_names(values: Any, lon: Any) -> Any:
+    """The same; of arrays of xarray with the dimensions of the longitudes last, in their order."""
+    if not _are_labeled(values, lon) or not set(lon.dims) <= set(values.dims):
+        return values
+    return values.transpose(..., *lon.dims)
+
+
 def as_lonlat(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     """Longitudes and latitudes as (n, 2) degrees."""
+    if _are_labeled(lon, lat):
+        dims: list[Any] = [each.dims for each in (lon, lat)]  # type: ignore[union-attr]
+        if set(dims[0]) != set(dims[1]):
+            raise ValueError(
+                f"lon and lat are pairs, but have the dimensions {dims[0]} and {dims[1]}: "
+                "xarray.broadcast() makes a grid of two axes"
+            )
+    lon, lat = by_names(lon, lat)
     lon, lat = as_floats(lon, "lon"), as_floats(lat, "lat")
     if lon.shape != lat.shape:
         raise ValueError(f"lon and lat differ in shape: {lon.shape} and {lat.shape}")
@@ -294,8 +332,9 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     Parameters
     ----------
     lon, lat : array_like, shape (...)
-        Longitudes and latitudes in degrees, broadcast against each other. Longitudes may be any
-        finite numbers, latitudes are from -90 to 90.
+        Longitudes and latitudes in degrees, broadcast against each other; two arrays of xarray by
+        the names of their dimensions, in the order of the longitudes or, of two axes, latitudes
+        first. Longitudes may be any finite numbers, latitudes are from -90 to 90.
 
     Returns
     -------
@@ -314,6 +353,7 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
 
     """
+    lon, lat = by_names(lon, lat)
     lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
     return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*lon.shape, 3)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_fields, as_floats, as_points, target_vectors
+from ._arrays import as_fields, as_floats, as_points, target_vectors, values_by_names
 from ._delaunay import SphericalDelaunay, delaunay, delaunay_lonlat
 from ._interpolation import METHODS, Method
 from ._repr import Described, count
@@ -99,6 +99,8 @@ class SphericalInterpolator(Described):
         if method not in METHODS:
             raise ValueError(f"method must be one of {', '.join(METHODS)}, not {method!r}")
         self._triangulation = _triangulated(points)
+        if isinstance(points, tuple):
+            values = values_by_names(values, points[0])
         self._values = as_fields(values, self._triangulation.npoints)
         self._method = method
         self._fill = float(fill_value)
@@ -163,13 +165,14 @@ def interpolate(
     Parameters
     ----------
     lon, lat : array_like, shape (n,)
-        The sites of the values in degrees. Arrays of more dimensions are flattened.
+        The sites of the values in degrees. Arrays of more dimensions are flattened; those of
+        xarray, also the values, are put into the order of the longitudes' dimensions.
     values : array_like, shape (..., n)
         A value for each site; further axes, such as time, come first. If `lon` has more
         dimensions, the last axes of the values have its shape and are flattened too.
     to_lon, to_lat : array_like
-        The targets in degrees, broadcast against each other: for a grid pass ``lon[None, :]`` and
-        ``lat[:, None]``.
+        The targets in degrees, broadcast against each other as in `unit_vectors`: for a grid pass
+        ``lon[None, :]`` and ``lat[:, None]``, or the axes as arrays of xarray.
     method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
         As in `SphericalDelaunay.weights`; by default 'sibson'.
     **options
@@ -204,6 +207,7 @@ def interpolate(
 
     """
     tri = delaunay_lonlat(lon, lat)
+    values = values_by_names(values, lon)
     shape = np.shape(lon)
     if len(shape) > 1 and np.shape(values)[-len(shape) :] == shape:
         values = np.ma.asanyarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)

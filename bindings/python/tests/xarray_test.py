@@ -194,6 +194,55 @@ def test_tuples_are_broadcast_or_axes_of_a_grid():
     assert ds.rondel.interpolate(same, grid=True).t.shape == (len(ds.time), 7, 7)
 
 
+def labeled(values, *dims):
+    return xarray.DataArray(values, dims=dims)
+
+
+def test_arrays_with_names_are_paired_by_them():
+    rng = np.random.default_rng(6)
+    lon, lat, values = rng.uniform(0, 50, (3, 5, 5))
+    to = np.array([20.0, 30]), np.array([22.0, 21])
+    wanted = rondel.interpolate(lon, lat, values, *to, "linear")
+    x, y, v = (labeled(each, "y", "x") for each in (lon, lat, values))
+    turned = y.transpose("x", "y")
+    assert not np.array_equal(rondel.interpolate(x, turned.values, v, *to, "linear"), wanted)
+    for lats in (y, turned):
+        for field in (v, v.transpose("x", "y")):
+            assert np.array_equal(rondel.interpolate(x, lats, field, *to, "linear"), wanted)
+    times = xarray.concat([v, v + 1], "time").transpose("x", "time", "y")
+    both = rondel.interpolate(x, y, times, *to, "linear")
+    assert np.allclose(both, [wanted, wanted + 1], rtol=1e-14)
+    weights = rondel.area_weights(lat, lon)
+    assert np.array_equal(rondel.area_weights(y, x), weights)
+    assert np.array_equal(rondel.area_weights(turned, x), weights)
+    assert np.array_equal(rondel.unit_vectors(x, turned), rondel.unit_vectors(lon, lat))
+    assert np.array_equal(
+        rondel.delaunay_lonlat(x, turned).points, rondel.delaunay_lonlat(lon, lat).points
+    )
+    flat = labeled(values.ravel(), "cell")
+    f = rondel.SphericalInterpolator(
+        (x.stack(cell=("y", "x")), turned.stack(cell=("y", "x"))), flat
+    )
+    assert np.array_equal(f(*to), rondel.interpolate(lon, lat, values, *to))
+
+
+def test_axes_with_names_are_those_of_a_grid():
+    lon, lat = labeled(AXES[0][:7], "lon"), labeled(AXES[1], "lat")
+    grid = AXES[0][:7], AXES[1][:, None]
+    assert np.array_equal(rondel.unit_vectors(lon, lat), rondel.unit_vectors(*grid))
+    assert np.array_equal(rondel.area_weights(lat, lon), rondel.area_weights(grid[1], grid[0]))
+    found = rondel.interpolate(LON, LAT, TEMPERATURE, lon, lat)
+    assert found.shape == (3, 7, 7)
+    assert np.array_equal(found, rondel.interpolate(LON, LAT, TEMPERATURE, *grid))
+    for make in (rondel.delaunay_lonlat, rondel.SphericalVoronoi.from_lonlat):
+        with pytest.raises(ValueError, match=r"are pairs, but have the dimensions \('lon',\) and"):
+            make(lon, lat)
+    # Labels do not move one array against the other.
+    shifted = lat.rename(lat="p").assign_coords(p=np.arange(7) + 1)
+    pairs = lon.rename(lon="p").assign_coords(p=np.arange(7)), shifted
+    assert np.array_equal(rondel.unit_vectors(*pairs), rondel.unit_vectors(AXES[0][:7], AXES[1]))
+
+
 def test_tables_are_points():
     pandas = pytest.importorskip("pandas")
     ds = unstructured()
