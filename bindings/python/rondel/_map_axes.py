@@ -40,6 +40,7 @@ def make_map(ax: Any, projection: Any, points: FloatArray | None = None) -> LonL
         import cartopy.crs
     except ImportError:
         cartopy = None
+    _require_map(ax, projection, cartopy)
     region = _region(points)
     if ax is None and cartopy is not None:
         ax = plt.figure(constrained_layout=True).add_subplot(
@@ -62,6 +63,20 @@ def make_map(ax: Any, projection: Any, points: FloatArray | None = None) -> LonL
         return drawn
     _show_plain(ax, region, points)
     return LonLatMap(ax)
+
+
+def _require_map(ax: Any, projection: Any, cartopy: Any) -> None:
+    """Refuses the projections that Matplotlib itself has, which neither cut nor fill polygons."""
+    from matplotlib.projections.geo import GeoAxes
+
+    if isinstance(ax, GeoAxes):
+        raise TypeError(f"ax has Matplotlib's projection {ax.name!r}; maps are those of Cartopy")
+    is_known = projection is None or cartopy is None
+    if not is_known and not isinstance(projection, cartopy.crs.Projection):
+        raise TypeError(
+            "projection must be one of Cartopy, such as cartopy.crs.Mollweide(), not "
+            f"{projection!r}"
+        )
 
 
 def _region(points: FloatArray | None) -> tuple[float, float] | None:
@@ -151,27 +166,55 @@ def limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, An
     return vmin, vmax
 
 
+# Options of collections that would change the colors behind the color bar, and what to say instead.
+_OF_COLORS = {"array": "values are its argument", "clim": "vmin and vmax are the limits"}
+
+
+def take_norm(options: dict[str, Any], values: Any, vmin: float | None, vmax: float | None) -> Any:
+    """The norm of the colors, which the options lose; by default it is linear. Its limits are those
+    of all values unless they are given. None if there are no values.
+    """
+    for name, words in _OF_COLORS.items():
+        if name in options:
+            raise TypeError(f"plot() takes no option {name!r}: {words}")
+    norm = options.pop("norm", None)
+    if values is None:
+        if norm is not None:
+            raise TypeError("norm is that of the colors of values, and there are none")
+        return None
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    if norm is None:
+        return Normalize(*limits(values, vmin, vmax))
+    if vmin is not None or vmax is not None:
+        raise TypeError("norm has limits, so that vmin and vmax cannot be given beside it")
+    norm = ScalarMappable(norm=norm).norm  # It may be a name, such as "log".
+    norm.autoscale_None(values[np.isfinite(values)])
+    return norm
+
+
 def add_colors(
     drawn: LonLatMap,
     colored: Any,
     values: Any,
-    limits_given: tuple[float | None, float | None],
+    norm: Any,
     label: str | None,
     colorbar: bool,
-    **options: Any,
 ) -> None:
-    """Sets the limits of the colors, and adds a bar with the label below the map; its ends are
+    """Sets the norm of the colors, and adds a bar with the label below the map; its ends are
     pointed where values are beyond the limits.
     """
-    low, high = limits(values, *limits_given)
-    colored.set_clim(low, high)
+    colored.set_norm(norm)
     if not colorbar:
         return
     known = values[np.isfinite(values)]
-    is_below = known.size > 0 and known.min() < low
-    is_above = known.size > 0 and known.max() > high
+    is_below = known.size > 0 and known.min() < norm.vmin
+    is_above = known.size > 0 and known.max() > norm.vmax
     ends = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}
-    add_bar(drawn, colored, label, extend=ends[int(is_below), int(is_above)], **options)
+    # A norm of classes has colors of its own beyond its limits, or none.
+    extend = getattr(norm, "extend", ends[int(is_below), int(is_above)])
+    add_bar(drawn, colored, label, extend=extend)
 
 
 def add_bar(drawn: LonLatMap, colored: Any, label: str | None, **options: Any) -> None:

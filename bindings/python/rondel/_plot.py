@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, unmasked
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
-from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map
+from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map, take_norm
 from ._projection import LonLatMap
 from ._rings import FILLED, draw_rings, draw_triangles
 from ._types import ArrayLike, Divided, FloatArray, IntArray, Triangulated
@@ -91,7 +91,9 @@ class TrianglePictures:
         colorbar : bool, optional
             Whether values have a color bar, by default True.
         **options
-            Options of the `matplotlib.collections.LineCollection` of the edges.
+            `norm`, a `matplotlib.colors.Normalize` or its name such as 'log', for the colors in
+            place of `vmin` and `vmax`; others are options of the
+            `matplotlib.collections.LineCollection` of the edges.
 
         Returns
         -------
@@ -110,16 +112,13 @@ class TrianglePictures:
         >>> ax = tri.plot(values=[15, 20, 18, 22, -20, -40], label="mean temperature (°C)")
 
         """
+        solid = self.simplices[~self.ghost]
+        shown = None if values is None else _means(values, solid, len(self.points))
+        norm = take_norm(options, shown, vmin, vmax)
         drawn = make_map(ax, projection, _rays(self))
-        if values is not None:
-            at_sites = as_floats(unmasked(values), "values")
-            if at_sites.shape != (len(self.points),):
-                wanted = f"({len(self.points)},)"
-                raise ValueError(f"values must have the shape {wanted}, not {at_sites.shape}")
-            solid = self.simplices[~self.ghost]
-            shown = at_sites[solid].mean(axis=1)
+        if shown is not None:
             colored = draw_triangles(drawn, solid, _rays(self), shown, cmap)
-            add_colors(drawn, colored, shown, (vmin, vmax), label, colorbar)
+            add_colors(drawn, colored, shown, norm, label, colorbar)
         _draw_coast(self, drawn, coast)
         if values is None or edges is not None:
             ends = self.edges if edges is None else _as_edges(edges, len(self.points))
@@ -128,6 +127,15 @@ class TrianglePictures:
         if sites if sites is not None else values is None:
             draw_sites(drawn, self.lonlat[self.vertices])
         return drawn.ax
+
+
+def _means(values: ArrayLike, triangles: IntArray, num_sites: int) -> FloatArray:
+    """The mean of the values at the corners of each triangle."""
+    at_sites = as_floats(unmasked(values), "values")
+    if at_sites.shape != (num_sites,):
+        raise ValueError(f"values must have the shape ({num_sites},), not {at_sites.shape}")
+    means: FloatArray = at_sites[triangles].mean(axis=1)
+    return means
 
 
 def _rays(self: Triangulated) -> FloatArray:
@@ -178,7 +186,8 @@ class CellPictures:
         ax, projection, sites, coast, cmap, vmin, vmax, label, colorbar
             As in `SphericalDelaunay.plot`. New axes always show the globe, as cells do.
         **options
-            Options of the `matplotlib.collections.LineCollection` of the borders.
+            `norm`, as in `SphericalDelaunay.plot`, and options of the
+            `matplotlib.collections.LineCollection` of the borders.
 
         Returns
         -------
@@ -198,10 +207,18 @@ class CellPictures:
         >>> ax = cells.plot(cells.areas, label="area (steradians)", cmap="magma")
 
         """
-        drawn = make_map(ax, projection)
+        numbers = None
         if values is not None:
-            colors = (vmin, vmax), label, colorbar
-            _draw_diagram(self, drawn, np.asarray(unmasked(values)), cmap, colors)
+            numbers = as_floats(unmasked(values), "values")
+            if len(numbers) != len(self.points):
+                raise ValueError(f"{len(numbers)} values for {len(self.points)} sites")
+        # Hidden sites and duplicates have no cell that shows a color.
+        seen = None if numbers is None else numbers[self.delaunay.vertices]
+        norm = take_norm(options, seen, vmin, vmax)
+        drawn = make_map(ax, projection)
+        if numbers is not None:
+            cells = _draw_diagram(self, drawn, numbers, cmap)
+            add_colors(drawn, cells, seen, norm, label, colorbar)
         _draw_coast(self.delaunay, drawn, coast)
         ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
         is_filled = values is not None
@@ -238,7 +255,8 @@ class RegionPictures:
         ax, projection, coast, cmap, vmin, vmax, label, colorbar
             As in `SphericalDelaunay.plot`; by default the coasts are drawn.
         **options
-            Options of the `matplotlib.collections.PathCollection` of the regions.
+            `norm`, as in `SphericalDelaunay.plot`, and options of the
+            `matplotlib.collections.PathCollection` of the regions.
 
         Returns
         -------
@@ -251,9 +269,10 @@ class RegionPictures:
             If Matplotlib is not installed.
 
         """
-        numbers = None if values is None else np.asarray(unmasked(values))
+        numbers = None if values is None else as_floats(unmasked(values), "values")
         if numbers is not None and len(numbers) != len(self):
             raise ValueError(f"{len(numbers)} values for {len(self)} regions")
+        norm = take_norm(options, numbers, vmin, vmax)
         # Corners say where regions are unless they are all but the whole globe.
         is_small = self.areas.sum() < 2 * np.pi
         drawn = make_map(ax, projection, self._rings.points if is_small else None)
@@ -262,7 +281,7 @@ class RegionPictures:
             draw_rings(drawn, self._rings, None, {"facecolors": "tab:blue", **look, **options})
         else:
             colored = draw_rings(drawn, self._rings, numbers, {"cmap": cmap, **look, **options})
-            add_colors(drawn, colored, numbers, (vmin, vmax), label, colorbar)
+            add_colors(drawn, colored, numbers, norm, label, colorbar)
         if coast:
             draw_coast_lines(drawn)
         return drawn.ax
@@ -287,16 +306,11 @@ def draw_cells(
     return drawn.draw_polygons(lines, polygons.owners, owner_at, look, values)
 
 
-def _draw_diagram(
-    self: Divided, drawn: LonLatMap, values: Any, cmap: Any, colors: tuple[Any, Any, bool]
-) -> None:
-    if len(values) != len(self.points):
-        raise ValueError(f"{len(values)} values for {len(self.points)} sites")
+def _draw_diagram(self: Divided, drawn: LonLatMap, values: Any, cmap: Any) -> Any:
     polygons = _core.cell_polygons(self.delaunay._triangulation, self._diagram, 0.1)
 
     def owner_at(degrees: Any) -> int:
         there = _core.unit_vectors(np.array([degrees], float)) * self.radius + self.center
         return int(self.delaunay.nearest(there[0]))
 
-    cells = draw_cells(drawn, polygons, owner_at, values, cmap)
-    add_colors(drawn, cells, values[np.unique(polygons.owners)], *colors)
+    return draw_cells(drawn, polygons, owner_at, values, cmap)

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, unmasked
-from ._map_axes import add_colors, draw_coast_lines, limits, line_options, make_map
+from ._map_axes import add_colors, draw_coast_lines, line_options, make_map, take_norm
 from ._projection import LonLatMap
 from ._rings import FILLED, draw_rings
 from ._types import ArrayLike, FloatArray
@@ -55,8 +55,9 @@ def plot_cells(
         As in `SphericalDelaunay.plot`; by default the coasts are drawn on top. New axes show the
         globe.
     **options
-        Options of the collection: of Matplotlib's ``pcolormesh`` for grids of longitudes and
-        latitudes, of `matplotlib.collections.PathCollection` for other cells.
+        `norm`, as in `SphericalDelaunay.plot`, and options of the collection: of Matplotlib's
+        ``pcolormesh`` for grids of longitudes and latitudes, of
+        `matplotlib.collections.PathCollection` for other cells.
 
     Returns
     -------
@@ -80,11 +81,11 @@ def plot_cells(
         numbers = as_floats(unmasked(values), "values").reshape(-1)
         if len(numbers) != self.num_cells:
             raise ValueError(f"{len(numbers)} values for {self.num_cells} cells")
+    norm = take_norm(options, numbers, vmin, vmax)
     drawn = make_map(ax, projection)
     lines = self._cells.lines()
     if lines is not None and numbers is not None:
-        low, high = limits(numbers, vmin, vmax)
-        look = {"cmap": cmap, "vmin": low, "vmax": high, "rasterized": True, **options}
+        look = {"cmap": cmap, "norm": norm, "rasterized": True, **options}
         shape = len(lines[1]) - 1, len(lines[0]) - 1
         colored = drawn.draw_grid(lines[0], lines[1], numbers.reshape(shape), look)
     elif lines is not None:
@@ -96,7 +97,7 @@ def plot_cells(
     else:
         _draw_borders(self, drawn, options)
     if numbers is not None:
-        add_colors(drawn, colored, numbers, (vmin, vmax), label, colorbar)
+        add_colors(drawn, colored, numbers, norm, label, colorbar)
     if coast:
         draw_coast_lines(drawn)
     return drawn.ax

@@ -72,7 +72,7 @@ def plot_bands(
     colors = cmap if isinstance(cmap, Colormap) else colormaps[cmap or "viridis"]
     # A color for each band: one more than there are spaces between levels, with both open ends.
     levels = self.levels if len(self.levels) > 1 else np.append(self.levels, self.levels + 1)
-    norm = BoundaryNorm(levels, colors.N, extend="both")
+    norm = options.pop("norm", None) or BoundaryNorm(levels, colors.N, extend="both")
     middles = np.concatenate(
         [self.levels[:1] - 1, (self.levels[1:] + self.levels[:-1]) / 2, self.levels[-1:] + 1]
     )

@@ -11,7 +11,14 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, degrees_of, unmasked
 from ._lonlat import arcs
-from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map
+from ._map_axes import (
+    add_colors,
+    draw_coast_lines,
+    draw_sites,
+    line_options,
+    make_map,
+    take_norm,
+)
 from ._plot import draw_cells
 from ._projection import LonLatMap
 from ._rings import draw_triangles
@@ -82,7 +89,8 @@ def plot_mesh(
         As in `SphericalVoronoi.plot`; by default neither sites nor coasts are drawn, and new axes
         show the mesh if all of it is within 60 degrees. A word for `values` has a label.
     **options
-        Options of the `matplotlib.collections.LineCollection` of the edges.
+        `norm`, as in `SphericalDelaunay.plot`, and options of the
+        `matplotlib.collections.LineCollection` of the edges.
 
     Returns
     -------
@@ -103,25 +111,26 @@ def plot_mesh(
     'spacing of cells (km)'
 
     """
+    if isinstance(values, str):
+        values, words = _measured(self, values)
+        label = label or words
+    colors = None if values is None else as_floats(values, "values")
+    if colors is not None and colors.shape != (len(self.points),):
+        raise ValueError(f"values has the shape {colors.shape}, not ({len(self.points)},)")
+    norm = take_norm(options, colors, vmin, vmax)
     drawn = make_map(ax, projection, self.vertex_points / self.radius)
-    if values is not None:
-        if isinstance(values, str):
-            values, words = _measured(self, values)
-            label = label or words
-        colors = as_floats(values, "values")
-        if colors.shape != (len(self.points),):
-            raise ValueError(f"values has the shape {colors.shape}, not ({len(self.points)},)")
+    if colors is not None:
 
         def owner_at(degrees: Any) -> int:
             return int(np.argmax(self.points @ _core.unit_vectors(np.array([degrees], float))[0]))
 
         polygons = _core.mesh_polygons(self._arrays, 0.1)
         cells = draw_cells(drawn, polygons, owner_at, colors, cmap)
-        add_colors(drawn, cells, colors, (vmin, vmax), label, colorbar)
+        add_colors(drawn, cells, colors, norm, label, colorbar)
     if coast:
         draw_coast_lines(drawn)
     ends = (self.vertex_points / self.radius)[self.vertices_on_edge]
-    is_filled = values is not None
+    is_filled = colors is not None
     chosen = line_options(drawn, len(self.points), options, over_colors=is_filled)
     drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), chosen)
     if sites:
@@ -180,7 +189,8 @@ def plot_triangle_mesh(
         As in `SphericalDelaunay.plot`; by default no coasts are drawn. A word for values has a
         label.
     **options
-        Options of the `matplotlib.collections.LineCollection` of the edges.
+        `norm`, as in `SphericalDelaunay.plot`, and options of the
+        `matplotlib.collections.LineCollection` of the edges.
 
     Returns
     -------
@@ -204,11 +214,12 @@ def plot_triangle_mesh(
 
     """
     points = self.points / np.linalg.norm(self.points, axis=1, keepdims=True)
-    drawn = make_map(ax, projection, points)
     shown, words = _triangle_colors(self, values, triangle_values)
+    norm = take_norm(options, shown, vmin, vmax)
+    drawn = make_map(ax, projection, points)
     if shown is not None:
         colored = draw_triangles(drawn, self.triangles, points, shown, cmap)
-        add_colors(drawn, colored, shown, (vmin, vmax), label or words, colorbar)
+        add_colors(drawn, colored, shown, norm, label or words, colorbar)
     if coast:
         draw_coast_lines(drawn)
     sides = np.sort(self.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)

@@ -92,7 +92,8 @@ class RondelAccessor:
         target : Dataset, DataArray, DataFrame or tuple of array_like
             What has the longitudes and latitudes of the result: of points, of a curvilinear grid,
             or as axes; or a tuple (lon, lat) in degrees, whose arrays are pairs, broadcast against
-            each other as in `rondel.interpolate`; two of different lengths are axes.
+            each other as in `rondel.interpolate`. Two of different lengths are no pairs, but axes:
+            a grid whose axes may have equal lengths needs `grid`.
         method : str, optional
             As in `SphericalDelaunay.weights`, by default 'sibson'.
         grid : bool, optional
@@ -188,8 +189,8 @@ class RondelAccessor:
         label : str, optional
             The words beside the color bar; by default the attributes `long_name` and `units`.
         **options
-            Those of `CellSet.plot`, such as `projection`, `coast`, `cmap`, `vmin`, `vmax` and
-            `colorbar`.
+            Those of `CellSet.plot`, such as `projection`, `coast`, `cmap`, `vmin`, `vmax`, `norm`
+            and `colorbar`.
 
         Returns
         -------

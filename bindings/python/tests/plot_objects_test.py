@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures of each object: what is drawn, in which colors, with which words."""
 
+import functools
 import sys
 
 import clouds
@@ -11,6 +12,7 @@ import pytest
 import rondel
 import rondel.mesh
 
+matplotlib = pytest.importorskip("matplotlib")
 plt = pytest.importorskip("matplotlib.pyplot")
 
 LON = np.array([0.0, 90, 180, -90, 0, 0, 45])
@@ -45,6 +47,11 @@ def kinds_of(ax):
 
 def grid_cells():
     return rondel.CellSet.lonlat_grid(np.arange(0.0, 361, 60), np.arange(-90.0, 91, 45))
+
+
+@functools.cache
+def mesh():
+    return rondel.mesh.scvt(30, max_steps=5)
 
 
 def box_mesh():
@@ -98,6 +105,66 @@ def test_limits_and_colors_are_those_that_are_asked_for(name):
     assert bar_of(ax)._colorbar.extend == "min"  # some values are below the limits
     ax = draw(ax=plt.figure().add_subplot(), colorbar=False, coast=False)
     assert bar_of(ax) is None
+
+
+NORMED = {
+    "triangles": lambda **more: TRI.plot(values=10**HEIGHTS, **more),
+    "cells": lambda **more: CELLS.plot(10**HEIGHTS, **more),
+    "regions": lambda **more: CELLS.dissolve("aabbccd").plot([1, 10, 100, 1000], **more),
+    "grid": lambda **more: grid_cells().plot(10.0 ** np.arange(24), **more),
+    "pixels": lambda **more: rondel.CellSet.named("healpix:0").plot(10.0 ** np.arange(12), **more),
+    "mesh": lambda **more: mesh().plot(10.0 ** np.arange(30), **more),
+    "triangle mesh": lambda **more: box_mesh().plot([1, 10, 100, 1e3, 1e4], **more),
+}
+
+
+@pytest.mark.parametrize("norm", [lambda: "log", lambda: matplotlib.colors.LogNorm()])
+@pytest.mark.parametrize("name", NORMED)
+def test_a_norm_is_that_of_the_colors(axes, name, norm):
+    ax = NORMED[name](ax=axes(), norm=norm(), cmap="viridis", coast=False)
+    ax.figure.canvas.draw()
+    colored = ax.collections[0]
+    values = np.ma.compressed(colored.get_array())
+    # The colors of equal ratios are equally far apart.
+    logs = np.log(values)
+    parts = (logs - logs.min()) / np.ptp(logs)
+    expected = matplotlib.colormaps["viridis"](parts)
+    assert np.allclose(colored.to_rgba(values), expected, atol=0.01)
+    assert bar_of(ax).get_xscale() == "log"
+    assert bar_of(ax).get_xlim() == pytest.approx((values.min(), values.max()))
+
+
+@pytest.mark.parametrize("name", NORMED)
+def test_what_would_change_the_colors_otherwise_is_refused(name):
+    draw = NORMED[name]
+    for options, words in (
+        ({"norm": matplotlib.colors.LogNorm(), "vmin": 1}, "norm has limits"),
+        ({"clim": (1, 2)}, "no option 'clim': vmin and vmax"),
+        ({"array": [1]}, "no option 'array': values"),
+    ):
+        with pytest.raises(TypeError, match=words):
+            draw(ax=plt.figure().add_subplot(), **options)
+
+
+def test_classes_have_their_colors():
+    norm = matplotlib.colors.BoundaryNorm([0, 4, 8], 256)
+    ax = CELLS.plot(HEIGHTS, plt.figure().add_subplot(), norm=norm, coast=False)
+    assert ax.collections[0].norm is norm
+    assert bar_of(ax)._colorbar.extend == "neither"
+    with pytest.raises(TypeError, match="norm is that of the colors of values, and there are none"):
+        CELLS.plot(norm=norm)
+    bands = TRI.bands(HEIGHTS, [0, 4, 8]).plot(plt.figure().add_subplot(), norm=norm, coast=False)
+    assert bands.collections[0].norm is norm
+    assert bar_of(bands)._colorbar.norm is norm
+
+
+def test_projections_are_those_of_cartopy():
+    pytest.importorskip("cartopy")
+    with pytest.raises(TypeError, match=r"one of Cartopy, such as .*, not 'mollweide'"):
+        CELLS.plot(projection="mollweide")
+    assert not plt.get_fignums()
+    with pytest.raises(TypeError, match="Matplotlib's projection 'mollweide'"):
+        CELLS.plot(ax=plt.figure().add_subplot(projection="mollweide"))
 
 
 @pytest.mark.parametrize("name", COLORED)
