@@ -70,7 +70,7 @@ def buffer(
     >>> disk = rondel.buffer(shapely.Point(180, -17), 100, radius=6371.0088)  # kilometers
     >>> disk.geom_type, disk.bounds[0], disk.bounds[2]
     ('MultiPolygon', -180.0, 180.0)
-    >>> abs(rondel.area(disk, radius=6371.0088) / (math.pi * 100**2) - 1) < 0.003
+    >>> bool(abs(rondel.area(disk, radius=6371.0088) / (math.pi * 100**2) - 1) < 0.003)
     True
 
     """

@@ -327,7 +327,7 @@ def area(
     Examples
     --------
     >>> import rondel, shapely
-    >>> rondel.area(shapely.box(-180, 0, 180, 90), radius=6371.0088).round(-3)
+    >>> float(rondel.area(shapely.box(-180, 0, 180, 90), radius=6371.0088).round(-3))
     255033000.0
 
     """
@@ -376,7 +376,7 @@ def length(
     --------
     >>> import rondel, shapely
     >>> hemisphere = shapely.box(-180, 0, 180, 90)
-    >>> rondel.length(hemisphere, radius=6371.0088).round(2)
+    >>> float(rondel.length(hemisphere, radius=6371.0088).round(2))
     40030.23
 
     """

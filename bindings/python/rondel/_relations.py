@@ -104,7 +104,8 @@ def relate_pattern(
     Examples
     --------
     >>> import rondel, shapely
-    >>> rondel.relate_pattern(shapely.box(0, 0, 1, 1), shapely.box(1, 0, 2, 1), "F***1****")
+    >>> left, right = shapely.box(0, 0, 1, 1), shapely.box(1, 0, 2, 1)
+    >>> bool(rondel.relate_pattern(left, right, "F***1****"))
     True
 
     """
@@ -189,7 +190,7 @@ def _predicate(name: str, what: str, example: str) -> Any:
     Examples
     --------
     >>> import rondel, shapely
-    >>> {example}
+    >>> bool({example})
     True
 
     """

@@ -107,8 +107,9 @@ def land() -> dict[str, Any]:
 
     Examples
     --------
+    >>> import math
     >>> import rondel.data
-    >>> share = rondel.area(rondel.data.land()) / (4 * np.pi)
+    >>> share = rondel.area(rondel.data.land()) / (4 * math.pi)
     >>> print(f"{share[0]:.0%} of the Earth is land")
     29% of the Earth is land
 

@@ -7,7 +7,9 @@ import importlib.util
 import pathlib
 import pkgutil
 import re
+import sys
 
+import numpy as np
 import pytest
 
 import rondel
@@ -25,12 +27,29 @@ def modules():
     return sorted(module.name for module in pkgutil.iter_modules(rondel.__path__, "rondel."))
 
 
+@pytest.fixture(autouse=True)
+def _without_scalars_of_numpy(monkeypatch):
+    """Refuses what NumPy 1 and 2 print differently: numbers and booleans of NumPy."""
+    shown = sys.__displayhook__
+
+    def show(value):
+        parts = value if isinstance(value, (tuple, list, set)) else [value]
+        for part in parts:
+            if isinstance(part, (np.bool_, np.number)):
+                raise AssertionError(f"NumPy 1 and 2 print {part} differently: {type(part)}")
+        shown(value)
+
+    monkeypatch.setattr(sys, "__displayhook__", show)
+
+
 @pytest.mark.parametrize("name", modules())
 def test_docstrings(name):
     if name in ("rondel.xarray", "rondel._coordinates", "rondel._places"):
         pytest.importorskip("xarray")
     if name != "rondel._core":
-        failed, _ = doctest.testmod(__import__(name, fromlist=["_"]), optionflags=OPTIONS)
+        # Without the module's own names: an example imports what it uses.
+        module = __import__(name, fromlist=["_"])
+        failed, _ = doctest.testmod(module, globs={}, optionflags=OPTIONS)
         assert failed == 0
 
 
