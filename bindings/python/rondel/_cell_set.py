@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,10 @@ from ._pickled import arrays_of, with_arrays
 from ._plot_cells import plot_cells
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
+
+# The endings of files that users take for grids: their fields or polygons are on some.
+_OF_FIELDS = (".nc", ".nc4", ".zarr", ".grib", ".grib2", ".csv")
+_OF_POLYGONS = (".geojson", ".json", ".shp", ".gpkg", ".parquet")
 
 
 class CellSet(Described):
@@ -246,6 +251,7 @@ class CellSet(Described):
         ((48,), 4.0)
 
         """
+        _refuse_file(name)
         return cls._of(_core.CellSet.named(name, sides, as_threads(threads)))
 
     @classmethod
@@ -647,6 +653,28 @@ class CellSet(Described):
         if masked:
             facts.append(("mask", f"{masked:,} masked"))
         return facts
+
+
+def _refuse_file(name: str) -> None:
+    """Refuses what is the name of a file and of no grid, and says what reads it."""
+    if not isinstance(name, str):
+        return  # The library says what it is.
+    ending = os.path.splitext(name)[1].lower()
+    are_fields, are_polygons = ending in _OF_FIELDS, ending in _OF_POLYGONS
+    is_file = are_fields or are_polygons or os.path.exists(name)
+    if _core.is_grid_name(name) or not is_file:
+        return
+    hint = "rondel.CellSet.read() reads its cells"
+    if are_polygons:
+        hint = (
+            "rondel.polygons() reads its cells, and rondel.zonal_statistics() computes statistics "
+            "of fields in them"
+        )
+    elif are_fields:
+        hint += (
+            ", xarray.open_dataset() its fields, and rondel.regrid_file() takes files as they are"
+        )
+    raise InvalidInput(f"{name!r} is a file, and no grid: {hint}")
 
 
 def axis_lines(

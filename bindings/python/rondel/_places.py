@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Hashable, Mapping
 from typing import Any
 
@@ -56,8 +57,8 @@ class Places:
         corners: Corners = "error",
     ) -> None:
         # With `are_cells` cells that have bounds take part where their centers are missing, too.
-        if isinstance(data, str):
-            data = CellSet.named(data)
+        if isinstance(data, (str, os.PathLike)):
+            data = CellSet.named(os.fsdecode(data))
         given = data
         self._corners = corners
         self._named_cells: CellSet | None = None  # those of the grid that the data name

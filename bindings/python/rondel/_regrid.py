@@ -11,7 +11,7 @@ from ._blocks import OutputChunks
 from ._errors import warn_caller
 from ._geometries import Corners
 from ._native import Extrapolation
-from ._regrid_files import FieldMethod
+from ._regrid_files import FieldMethod, as_method
 from ._regridder import Regridder, RegridMethod
 from ._types import Progress
 
@@ -74,7 +74,8 @@ def regrid(
     method : str, optional
         'conservative' (default) and 'conservative_2nd': means over cells; 'nearest', 'linear',
         'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers; 'native': in
-        the cells of the mesh of `data` itself, as a `Regridder` does it. With
+        the cells of the mesh of `data` itself, as a `Regridder` does it. Hyphens, as of the
+        command, are underscores. With
         conservative methods, arrays that have the attribute `flag_values` or `flag_meanings` get
         the value that the largest part of a target has, as 'largest_share' asks for.
     lon, lat, lon_out, lat_out : str, optional
@@ -124,6 +125,7 @@ def regrid(
     """
     if not 0 <= max_missing <= 1:
         raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
+    method = cast("FieldMethod", as_method(method))
     if method not in get_args(FieldMethod):
         names = ", ".join(map(repr, get_args(FieldMethod)))
         raise ValueError(f"method must be one of {names}, not {method!r}")

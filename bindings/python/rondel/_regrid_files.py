@@ -118,8 +118,9 @@ def regrid_file(
         'conservative', 'conservative_2nd' (with gradients), 'largest_share' (the most frequent
         value), 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic', 'bilinear' on a grid
         along axes, or 'native' in the cells of the mesh of the fields, at its nodes or its faces
-        (`native_weights`). By default fields with the attribute `flag_values` or `flag_meanings`
-        get 'largest_share', and all others 'conservative'.
+        (`native_weights`). Hyphens, as of the command, are underscores. By default fields with the
+        attribute `flag_values` or `flag_meanings` get 'largest_share', and all others
+        'conservative'.
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.
@@ -289,7 +290,7 @@ def as_options(
     return _core.regrid_options(
         _as_texts(names, "names"),
         None if source is None else as_name(source),
-        method,
+        as_method(method),
         norm,
         as_number(max_missing, "max_missing"),
         sides,
@@ -314,6 +315,11 @@ def as_options(
         bool(resume),
         limiter == "bounds",
     )
+
+
+def as_method(method: str | None) -> str | None:
+    """A method, which the command spells with hyphens."""
+    return method.replace("-", "_") if isinstance(method, str) else method
 
 
 def _as_texts(given: str | Iterable[str], name: str) -> list[str]:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Named grids, and files that are regridded."""
 
+import pathlib
 import pickle
 
 import numpy as np
@@ -860,3 +861,33 @@ def test_dimensions_of_files_are_named(made, tmp_path, target, dims):
         if target != "C4":
             assert found.warm.dims == file.warm.dims
             assert found.warm.shape == file.warm.shape
+
+
+@pytest.mark.parametrize("as_path", [str, pathlib.Path])
+def test_files_are_no_grids_and_it_is_said_what_takes_them(made, tmp_path, as_path, monkeypatch):
+    _, data = made
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cells").write_text("")
+    for name, hint in (
+        ("in.nc", r"xarray.open_dataset\(\) its fields, and rondel.regrid_file\(\) takes files"),
+        ("elsewhere.nc", r"rondel.CellSet.read\(\) reads its cells"),
+        ("countries.geojson", r"rondel.polygons\(\) reads .* rondel.zonal_statistics\(\) computes"),
+        ("cells", r"rondel.CellSet.read\(\) reads its cells"),
+    ):
+        words = rf"'{name}' is a file, and no grid: .*{hint}"
+        with pytest.raises(rondel.InvalidInput, match=words):
+            rondel.regrid(data, as_path(name))
+        with pytest.raises(rondel.InvalidInput, match=words):
+            rondel.regrid(as_path(name), "healpix:1")
+        with pytest.raises(rondel.InvalidInput, match=words):
+            rondel.CellSet.named(name)
+
+
+@pytest.mark.parametrize("method", ["conservative-2nd", "largest-share"])
+def test_methods_may_be_spelled_as_in_the_command(made, tmp_path, method):
+    path, data = made
+    for name, spelled in (("a.nc", method), ("b.nc", method.replace("-", "_"))):
+        rondel.regrid_file(path, "healpix:1", tmp_path / name, method=spelled, history="by a test")
+    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+    found = rondel.regrid(data, "healpix:1", method)
+    assert found.identical(rondel.regrid(data, "healpix:1", method.replace("-", "_")))
