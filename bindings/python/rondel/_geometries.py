@@ -8,13 +8,14 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._errors import InvalidInput, warn_caller
+from ._errors import FileError, InvalidInput, warn_caller
 from ._projected import in_lonlat
 from ._properties import json_cells
 from ._taken_apart import shapely_array, taken_apart
@@ -39,7 +40,8 @@ def read_cells(
     corners: Corners = "error",
 ) -> _core.CellSet:
     """The cells of a file; polygons with a group below 0 are left out."""
-    cells = _core.CellSet.read(name, sides, edges, overlap, invalid, groups, corners, threads)
+    with _hints():
+        cells = _core.CellSet.read(name, sides, edges, overlap, invalid, groups, corners, threads)
     for remark in cells.facts.remarks:
         warn_caller(f"{name}: {remark}")
     return cells
@@ -90,7 +92,8 @@ def polygons_of(
 def features_of(features: Any, edges: Edges, read: Callable[[Any], Any]) -> Any:
     """The result of `read`, which gets a file or bytes with the features."""
     if is_file(features):
-        return read(os.fspath(features))
+        with _hints():
+            return read(os.fspath(features))
     return _of_objects(features, edges, read)
 
 
@@ -151,8 +154,26 @@ def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any
         raise ValueError(_told_of_geometries(problem)) from None
 
 
+# What an error about features that overlap ends with.
+_FIRST = "; overlap='first' gives what they share to the first one"
+
+
+@contextmanager
+def _hints() -> Iterator[None]:
+    """Errors about features of a file that overlap say what can be done."""
+    try:
+        yield
+    except FileError as error:
+        text = str(error)
+        if not re.search(r": features [0-9].* overlap at ", text):
+            raise
+        raise FileError(f"{text}{_FIRST}") from None
+
+
 def _told_of_geometries(problem: str) -> str:
-    return "geometries: " + re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
+    if re.match(r"features [0-9]", problem):
+        return re.sub(r"^features(?= [0-9])|features$", "geometries", problem) + _FIRST
+    return "geometries: " + re.sub(r"^feature (?=[0-9])", "geometry ", problem)
 
 
 def _plain(value: Any) -> Any:
@@ -160,10 +181,6 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     raise TypeError(f"a {type(value).__name__} has no place in GeoJSON")
-
-
-def _word_of(match: re.Match[str]) -> str:
-    return "geometries " if match[1] else "geometry "
 
 
 def _first_not_finite(collection: Mapping[str, Any]) -> str:

@@ -3,7 +3,9 @@
 """Hostile polygons: shapely says which are valid and what their union is, an integral the area."""
 
 import itertools
+import json
 import math
+import re
 
 import clouds
 import numpy as np
@@ -177,8 +179,34 @@ def test_unions_of_disks():
         assert np.isclose(first.sum(), area, rtol=1e-11)
         assert first[-1] == 0
         assert abs(first[0] - area_of(given[0])) <= bound_of(given[0])
-        with pytest.raises(ValueError, match=r"^geometries: geometries [0-9] and [0-9] overlap at"):
+        with pytest.raises(ValueError, match=r"^geometries [0-9] and [0-9] overlap at"):
             rondel.polygons(given, overlap="error")
+
+
+def test_overlaps_say_what_can_be_done(tmp_path):
+    boxes = [shapely.box(k, k, k + 5, k + 5) for k in range(3)]
+    features = [
+        {"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(box)}
+        for box in boxes
+    ]
+    collection = {"type": "FeatureCollection", "features": features}
+    path = tmp_path / "boxes.geojson"
+    path.write_text(json.dumps(collection), "utf-8")
+    hint = "and 2 more pairs of {}; overlap='first' gives what they share to the first one$"
+    for given in (boxes, collection, path):
+        is_file = given is path
+        kind = "features" if is_file else "geometries"
+        name = re.escape(f"{path}: ") if is_file else ""
+        words = rf"^{name}{kind} 0 and 1 overlap at [0-9. ]*, {hint.format(kind)}"
+        for call in (
+            lambda given=given: CELLS.clip(given, values=[1, 2, 3]),
+            lambda given=given: rondel.polygons(given, overlap="error"),
+            lambda given=given: rondel.feature_cells(given, 500),
+        ):
+            with pytest.raises(OSError if is_file else ValueError, match=words):
+                call()
+        divided = CELLS.clip(given, values=[1, 2, 3], overlap="first").areas.sum()
+        assert np.isclose(divided, CELLS.clip(given).areas.sum(), rtol=1e-9)
 
 
 def test_neighbors_with_other_corners_share_their_borders():
