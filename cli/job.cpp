@@ -90,10 +90,11 @@ void tell_of_columns(const std::string& netcdf, const ReadOptions& read) {
 
 NetcdfSites Job::read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
                               std::span<const std::string> names) {
-  const auto [data, variable] = file_and_variable(file);
-  if (!variable.empty()) names = {&variable, 1};
+  const auto part = file_and_variable(file);
+  if (!part.second.empty()) names = {&part.second, 1};
   NetcdfSites sites;
-  time(Stage::read, [&] { sites = read_sites_on_mesh(data, mesh, names, read.keep_columns); });
+  time(Stage::read,
+       [&] { sites = read_sites_on_mesh(part.first, mesh, names, read.keep_columns); });
   // Where a column is missing, the error that follows says why.
   if (!read.keep_columns || !sites.table.columns.empty()) {
     tell(file_and_variable(mesh).first.path, sites.remarks);

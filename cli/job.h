@@ -62,8 +62,9 @@ class Job {
   /// \param file  the values, or one of its variables; then `names` may be empty
   NetcdfSites read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
                            std::span<const std::string> names);
-  /// Triangulates the sites. \throws FileError with the file and line of a site that the library
-  /// does not accept, and for longitudes and latitudes with --center. The result refers to the table's sites, which must outlive it.
+  /// Triangulates the sites. The result refers to the table's sites, which must outlive it.
+  /// \throws FileError with the file and line of a site that the library does not accept, and for
+  ///         longitudes and latitudes with --center
   Triangulation triangulate(const SiteTable& table);
   /// Returns the convex hull of the sites. \throws FileError like triangulate()
   Triangulation hull(const SiteTable& table);

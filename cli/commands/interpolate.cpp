@@ -56,7 +56,8 @@ struct InterpolateOptions {
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
   [[nodiscard]] FileName weights_file() const { return {weights, weight_format}; }
-  // Returns the file of the mesh, or that of the sources with the name of a variable, if one is named.
+  // Returns the file of the mesh, or that of the sources with the name of a variable, if one is
+  // named.
   [[nodiscard]] FileName mesh_file() const {
     if (!mesh.empty()) return mesh;
     FileName file = source_file();
