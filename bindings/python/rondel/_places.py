@@ -365,14 +365,14 @@ class Places:
         return tri, numbers
 
     def num_repeated(self) -> int:
-        """How many places are those of others before them, but for those at the poles of a grid
-        along axes, and its columns that are repeated a turn later.
+        """How many places are those of others before them, but for those at the poles of a grid,
+        and the columns of axes that are repeated a turn later.
         """
         pairs = self.coincident
-        if not self.are_axes:
-            return len(pairs)
         lon, lat = self.lon.reshape(-1)[pairs], self.lat.reshape(-1)[pairs[:, 0]]
-        is_usual = (np.abs(lat) == 90) | (np.abs(lon[:, 0] - lon[:, 1]) > 180)
+        is_usual = (np.abs(lat) == 90) & (lon[:, 0] != lon[:, 1])
+        if self.are_axes:
+            is_usual = (np.abs(lat) == 90) | (np.abs(lon[:, 0] - lon[:, 1]) > 180)
         return int(np.count_nonzero(~is_usual))
 
     def weights_to(self, target: Places, method: Any, **options: Any) -> Weights:

@@ -67,7 +67,7 @@ class RondelAccessor:
 
         """
         target = _target(target, grid=grid)
-        return Places(self._data, lon, lat).weights_to(target, method, **options)
+        return _weights_between(Places(self._data, lon, lat), target, method, options)
 
     def interpolate(
         self,
@@ -122,6 +122,12 @@ class RondelAccessor:
             What describes a mesh, as the numbers of neighbors, is left out. Arrays of Dask stay
             lazy.
 
+        Warns
+        -----
+        UserWarning
+            If variables are left out, or places are given several times and `duplicates` is not,
+            as after times were stacked: only the first value counts at each of them.
+
         Raises
         ------
         ValueError
@@ -132,7 +138,7 @@ class RondelAccessor:
         """
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)
         if weights is None:
-            weights = source.weights_to(wanted, method or "sibson", **options)
+            weights = _weights_between(source, wanted, method or "sibson", options)
         elif not isinstance(weights, Weights):
             raise TypeError(
                 f"weights must be Weights, not {type(weights).__name__}; rondel.read_weights() "
@@ -218,6 +224,22 @@ for _register in _REGISTERS:
 
 def _target(target: Any, *, grid: bool) -> Places:
     return Places(target, are_pairs=not grid, are_targets=True)
+
+
+def _weights_between(
+    source: Places, wanted: Places, method: Method, options: dict[str, Any]
+) -> Weights:
+    """The weights; a warning tells of places that are given several times, unless `duplicates` says
+    what to do with them.
+    """
+    made = source.weights_to(wanted, method, **options)
+    number = source.num_repeated()
+    if number and "duplicates" not in options:
+        warn_caller(
+            f"{number} of {source.lon.size} places are those of others before them; at each place "
+            "the first value counts (duplicates='first'; 'mean' takes the mean)"
+        )
+    return made
 
 
 def _fits(weights: Weights, source: Places, wanted: Places) -> bool:

@@ -365,3 +365,36 @@ def test_numbers_of_numpy_in_dictionaries_are_numbers():
     assert found == {"k": 3, "v": [1.5, 2], "b": True}
     with pytest.raises(ValueError, match="the property 'd': "):
         diagram.to_geojson(properties={"d": [{"k": float("nan")}] * 6})
+
+
+def test_properties_that_are_no_columns_are_refused(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    diagram = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
+    table = pandas.DataFrame({"a": range(9), "b": list("abcdefghi")})
+    writers = [
+        lambda properties: diagram.to_geojson(properties=properties),
+        lambda properties: diagram.to_geojson(tmp_path / "out.geojson", properties=properties),
+        lambda properties: diagram.dissolve(range(9)).to_geojson(properties=properties),
+    ]
+    for write in writers:
+        for properties in (table, [1, 2], "a"):
+            kind = type(properties).__name__
+            with pytest.raises(TypeError, match=f"^properties must be a mapping .*, not {kind};"):
+                write(properties)
+        for values in (
+            5,
+            None,
+            "abcdefghi",
+            np.float64(3),
+            table,
+            set(range(9)),
+            dict.fromkeys(range(9)),
+            iter(range(9)),
+        ):
+            kind = type(values).__name__
+            with pytest.raises(TypeError, match=f"^the property 'a' must .*, but is {kind}$"):
+                write({"a": values})
+        with pytest.raises(ValueError, match="the property 'a' has 2 values for 9"):
+            write({"a": [1, 2]})
+    features = diagram.to_geojson(properties=dict(table))["features"]
+    assert [feature["properties"]["b"] for feature in features] == list("abcdefghi")

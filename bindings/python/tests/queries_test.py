@@ -30,7 +30,7 @@ def test_k_nearest(sites):
     assert np.array_equal(sites.k_nearest(QUERIES, 7), np.argsort(-COSINES, axis=1)[:, :7])
     assert sites.k_nearest(SITES[3], 1).tolist() == [3]
     assert sites.k_nearest(QUERIES, 0).shape == (100, 0)
-    with pytest.raises(ValueError, match="negative"):
+    with pytest.raises(ValueError, match="k must be from 0"):
         sites.k_nearest(QUERIES, -1)
     few = rondel.delaunay(SITES[:2]).k_nearest(QUERIES[:1], 4)
     assert sorted(few[0].tolist()) == [-1, -1, 0, 1]
@@ -108,3 +108,20 @@ def test_queries_from_several_threads_at_once():
     with ThreadPoolExecutor(4) as pool:
         for found in pool.map(lambda _: tri.nearest(QUERIES, threads=1), range(16)):
             assert np.array_equal(found, expected)
+
+
+def test_wrong_numbers_are_refused_by_name():
+    tri = rondel.delaunay(clouds.uniform(20))
+    queries = clouds.uniform(2)
+    for angle in ([0.1, 0.2], np.array([0.1, 0.2]), "0.1", None):
+        with pytest.raises(TypeError, match="^angle must be a number, not "):
+            tri.within(queries, angle)
+    for angle in (np.float32(0.5), np.array(0.5)):
+        assert np.array_equal(tri.within(queries, angle).indices, tri.within(queries, 0.5).indices)
+    for k in (-1, 2**31, 2**40, 2**70):
+        with pytest.raises(ValueError, match=f"^k must be from 0 to 2147483647, not {k}$"):
+            tri.k_nearest(queries, k)
+    for k in (2.5, "3", None):
+        with pytest.raises(TypeError, match="^k must be an integer, not "):
+            tri.k_nearest(queries, k)
+    assert tri.k_nearest(queries, np.int64(3)).shape == (2, 3)

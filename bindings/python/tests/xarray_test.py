@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The accessor of xarray's Datasets."""
 
+import warnings
+
 import clouds
 import numpy as np
 import pytest
@@ -192,6 +194,30 @@ def test_tuples_are_broadcast_or_axes_of_a_grid():
     same = AXES[0][:7], AXES[1]
     assert ds.rondel.interpolate(same).t.shape == (len(ds.time), 7)
     assert ds.rondel.interpolate(same, grid=True).t.shape == (len(ds.time), 7, 7)
+
+
+def test_places_that_are_given_twice_are_told():
+    grid = GRID.isel(lat=slice(1, -1))
+    values = np.arange(2.0 * 5 * 12).reshape(2, 5, 12)
+    ds = grid.assign(t=(("time", "lat", "lon"), values))
+    stacked = ds.t.stack(k=("time", "lat"))
+    words = "60 of 120 places are those of others before them; at each place the first value"
+    places = ([10.0, 50], [20.0, -30])
+    with pytest.warns(UserWarning, match=words):
+        found = stacked.rondel.interpolate(places, "linear")
+    first = ds.t[0].rondel.interpolate(places, "linear")
+    assert np.array_equal(found, first)
+    with pytest.warns(UserWarning, match=words):
+        stacked.rondel.weights(places, "linear")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        chosen = stacked.rondel.interpolate(places, "linear", duplicates="first")
+        assert np.array_equal(chosen, first)
+        mean = stacked.rondel.interpolate(places, "linear", duplicates="mean")
+        assert np.allclose(mean, ds.t.mean("time").rondel.interpolate(places, "linear"))
+        around = xarray.concat([GRID, GRID.isel(lon=[0]).assign_coords(lon=[360.0])], "lon")
+        field = xarray.DataArray(np.ones((7, 13)), around.coords, ("lat", "lon"))
+        assert np.allclose(field.rondel.interpolate(places), 1)
 
 
 def labeled(values, *dims):
