@@ -268,7 +268,9 @@ def as_count(number: int, name: str) -> int:
 
 def as_number(number: float, name: str) -> float:
     """A real number."""
-    if isinstance(number, (str, bytes, bool)) or not hasattr(number, "__float__"):
+    is_array = getattr(number, "ndim", 0) > 0
+    is_other = is_array or isinstance(number, (str, bytes, bool))
+    if is_other or not hasattr(number, "__float__"):
         raise TypeError(f"{name} must be a number, not {type(number).__name__}")
     return float(number)
 

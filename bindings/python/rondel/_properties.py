@@ -8,7 +8,7 @@ import datetime
 import json
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from typing import Any
 
 import numpy as np
@@ -28,10 +28,20 @@ def checked_properties(
     If they become JSON, infinite numbers are told.
     """
     checked: dict[str, Any] = {}
-    for key, values in (properties or {}).items():
+    properties = {} if properties is None else properties
+    if not isinstance(properties, Mapping):
+        kind = type(properties).__name__
+        raise TypeError(
+            f"properties must be a mapping of names to values, not {kind}; dict(table) makes a "
+            "mapping of a table"
+        )
+    for key, values in properties.items():
         name = str(key)
         if name in taken or name in checked:
             raise ValueError(f"the name {name!r} is taken: call the property something else")
+        if not _is_column(values):
+            kind = type(values).__name__
+            raise TypeError(f"the property {name!r} must have a value for each site, but is {kind}")
         if len(values) != count:
             raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
         if as_json and (num_infinite := _num_infinite(values)):
@@ -40,6 +50,13 @@ def checked_properties(
             )
         checked[name] = values
     return checked
+
+
+def _is_column(values: Any) -> bool:
+    """Whether it has one value after another: no single value, set, mapping or table."""
+    is_single = isinstance(values, (str, bytes)) or getattr(values, "ndim", 1) == 0
+    is_other = isinstance(values, (Mapping, Set)) or hasattr(values, "columns")
+    return hasattr(values, "__len__") and not (is_single or is_other)
 
 
 def _num_infinite(values: Any) -> int:

@@ -4,14 +4,21 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Sequence
 from enum import IntEnum
 from typing import Any, NamedTuple, NoReturn, overload
 
 import numpy as np
 
-from ._arrays import HINT_OF_DEGREES, as_indices, as_queries, as_threads, require_unmasked
+from ._arrays import (
+    HINT_OF_DEGREES,
+    as_count,
+    as_indices,
+    as_number,
+    as_queries,
+    as_threads,
+    require_unmasked,
+)
 from ._mesh import Lists
 from ._types import ArrayLike, FloatArray, IntArray
 
@@ -178,7 +185,7 @@ class Queries:
         InvalidInput
             If a query is not finite or is the center.
         ValueError
-            If k is negative.
+            If k is negative, or 2**31 or more.
 
         Examples
         --------
@@ -189,9 +196,7 @@ class Queries:
 
         """
         queries, shape = as_queries(xi)
-        k = operator.index(k)
-        if k < 0:
-            raise ValueError(f"k must not be negative, but is {k}")
+        k = as_count(k, "k")
         found = self._locator().k_nearest(queries, k, as_threads(threads))
         return found.reshape(*shape, k)
 
@@ -234,7 +239,9 @@ class Queries:
         queries, shape = as_queries(xi)
         if len(shape) > 1:
             raise ValueError(f"xi must have shape (3,) or (q, 3), not {(*shape, 3)}")
-        lists = Lists(*self._locator().within(queries, float(angle), as_threads(threads)))
+        lists = Lists(
+            *self._locator().within(queries, as_number(angle, "angle"), as_threads(threads))
+        )
         return lists if shape else lists.indices
 
     def distance(self, xi: ArrayLike, sites: ArrayLike) -> FloatArray:

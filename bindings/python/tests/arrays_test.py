@@ -535,7 +535,7 @@ def test_options_without_effect_are_refused(tmp_path):
         weights.apply(np.arange(6), max_missing=0.5)
     with pytest.raises(ValueError, match="view must be"):
         tri.save_html(tmp_path / "page.html", view=(0, 99))
-    with pytest.raises(TypeError, match=r"'float' object cannot be interpreted as an integer"):
+    with pytest.raises(TypeError, match="k must be an integer, not float"):
         tri.k_nearest([1, 0, 0], 2.5)
     with pytest.raises(rondel.InvalidInput, match="level 1, 1, is not above the one before it, 3"):
         tri.isolines(np.arange(6), [3, 1])

@@ -114,7 +114,7 @@ def test_wrong_numbers_are_refused_by_name():
     tri = rondel.delaunay(clouds.uniform(20))
     queries = clouds.uniform(2)
     for angle in ([0.1, 0.2], np.array([0.1, 0.2]), "0.1", None):
-        with pytest.raises(TypeError, match="^angle must be a number, not "):
+        with pytest.raises(TypeError, match=r"^angle must be a number, not "):
             tri.within(queries, angle)
     for angle in (np.float32(0.5), np.array(0.5)):
         assert np.array_equal(tri.within(queries, angle).indices, tri.within(queries, 0.5).indices)
@@ -122,6 +122,6 @@ def test_wrong_numbers_are_refused_by_name():
         with pytest.raises(ValueError, match=f"^k must be from 0 to 2147483647, not {k}$"):
             tri.k_nearest(queries, k)
     for k in (2.5, "3", None):
-        with pytest.raises(TypeError, match="^k must be an integer, not "):
+        with pytest.raises(TypeError, match=r"^k must be an integer, not "):
             tri.k_nearest(queries, k)
     assert tri.k_nearest(queries, np.int64(3)).shape == (2, 3)
