@@ -360,7 +360,7 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*lon.shape, 3)
 
 
-def target_vectors(lon: ArrayLike, lat: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
+def target_vectors(lon: ArrayLike, lat: ArrayLike, center: Any = ORIGIN) -> FloatArray:
     """Targets at a distance of 1 from the center of the sphere, from which longitudes and
     latitudes are seen: errors name a target, not a site.
     """

@@ -89,6 +89,10 @@ class Interpolation:
         raise NotImplementedError
 
     @property
+    def center(self) -> FloatArray:
+        raise NotImplementedError
+
+    @property
     def lonlat(self) -> FloatArray:
         raise NotImplementedError
 
