@@ -196,7 +196,7 @@ int run_and_report(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   rondel::cli::prepare_process();
-  rondel::cli::use_netcdf_of_python();
+  if (argc > 0) rondel::cli::use_netcdf_of_python(argv[0]);
   const std::vector<const char*> arguments =
       rondel::cli::without_help_command(rondel::cli::arguments_of_process(argc, argv));
   return rondel::cli::run_and_report(static_cast<int>(arguments.size()), arguments.data());

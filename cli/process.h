@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rondel::cli {
@@ -26,8 +27,8 @@ const std::atomic<bool>& interrupted_by_user();
 /// Returns the arguments of main(), in UTF-8 on Windows.
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv);
 
-/// Returns where the program is; an empty path if the system does not say it.
-std::filesystem::path path_of_executable();
+/// Returns where the program is that was called by this name; an empty path if it is not found.
+std::filesystem::path path_of_executable(const std::string& name);
 
 /// True if standard error is a terminal that obeys the sequence that clears a line.
 bool has_terminal();

@@ -3,14 +3,14 @@
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <unistd.h>
-#ifdef __APPLE__
-#include <mach-o/dyld.h>
-#endif
 
 #include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
 
 #include "command.h"
 #include "process.h"
@@ -80,16 +80,20 @@ std::vector<const char*> arguments_of_process(int argc, const char* const* argv)
   return {argv, argv + argc};
 }
 
-std::filesystem::path path_of_executable() {
+std::filesystem::path path_of_executable(const std::string& name) {
+  namespace fs = std::filesystem;
   std::error_code error;
-#ifdef __APPLE__
-  std::array<char, 4096> path{};
-  auto size = static_cast<std::uint32_t>(path.size());
-  if (_NSGetExecutablePath(path.data(), &size) != 0) return {};
-  return std::filesystem::canonical(path.data(), error);
-#else
-  return std::filesystem::read_symlink("/proc/self/exe", error);
-#endif
+  // Linux knows it; elsewhere it is the name that the program was called by, or is looked for where
+  // shells do.
+  if (fs::path known = fs::read_symlink("/proc/self/exe", error); !error) return known;
+  if (name.find('/') != std::string::npos) return fs::canonical(name, error);
+  const char* const folders = std::getenv("PATH");
+  std::istringstream list(folders == nullptr ? "" : folders);
+  for (std::string folder; std::getline(list, folder, ':');) {
+    fs::path found = fs::canonical(fs::path(folder) / name, error);
+    if (!error) return found;
+  }
+  return {};
 }
 
 bool has_terminal() { return isatty(STDERR_FILENO) != 0; }

@@ -61,7 +61,7 @@ std::vector<const char*> arguments_of_process(int argc, const char* const* argv)
 }
 
 // The system's terminals obey sequences of control characters after they are asked to.
-std::filesystem::path path_of_executable() {
+std::filesystem::path path_of_executable(const std::string& /*name*/) {
   std::wstring path(32768, L'\0');  // the longest path of Windows
   const DWORD size = GetModuleFileNameW(nullptr, path.data(), static_cast<DWORD>(path.size()));
   path.resize(size < path.size() ? size : 0);

@@ -63,8 +63,8 @@ fs::path netcdf_in(const fs::path& environment) {
 
 }  // namespace
 
-void use_netcdf_of_python() {
-  const fs::path executable = path_of_executable();
+void use_netcdf_of_python(const std::string& program) {
+  const fs::path executable = path_of_executable(program);
   if (executable.empty()) return;
   const fs::path library = netcdf_in(executable.parent_path().parent_path());
   if (!library.empty()) set_netcdf_library(library.string());

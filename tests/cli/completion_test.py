@@ -116,7 +116,7 @@ class Shells(unittest.TestCase):
         for command, option, words in choices:
             for word in [*words.split(), "no-such-word"]:
                 done = subprocess.run([TOOL, *command.split(), option, word], text=True, capture_output=True, check=False)
-                is_refused = f"{option}: 'no-such-word' is not" in done.stderr
+                is_refused = f"{option}: 'no-such-word' is no" in done.stderr
                 self.assertEqual(is_refused, word == "no-such-word", (command, option, word, done.stderr))
 
     @unittest.skipUnless(shutil.which("fish"), "fish is not installed")
