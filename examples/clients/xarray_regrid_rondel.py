@@ -28,7 +28,7 @@ from xarray_regrid.regrid import Regridder, validate_input
 LONGITUDES = ("lon", "longitude")
 LATITUDES = ("lat", "latitude")
 
-# What the accessor's own methods are called in Rondel.
+# The accessor's own methods, and their names in Rondel.
 METHODS = {"linear": "bilinear", "nearest": "nearest_s2d", "conservative": "conservative_normed"}
 
 own_methods = {name: getattr(Regridder, name) for name in METHODS}

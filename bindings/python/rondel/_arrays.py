@@ -204,7 +204,7 @@ def by_names(lon: Any, lat: Any) -> tuple[Any, Any]:
     lons, lats = lon.variable, lat.variable
     if set(lons.dims) == set(lats.dims):
         return lons, lats.transpose(*lons.dims)
-    # Of coordinates only the names count, so that none is missing where they differ.
+    # Only the names of coordinates count, so that none is missing where they differ.
     lats, lons = xarray.broadcast(xarray.DataArray(lats), xarray.DataArray(lons))
     return lons.variable, lats.variable
 

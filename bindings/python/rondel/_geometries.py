@@ -154,7 +154,7 @@ def _of_objects(geometries: Any, edges: Edges, read: Callable[[str | bytes], Any
         raise ValueError(_told_of_geometries(problem)) from None
 
 
-# What an error about features that overlap ends with.
+# The end of errors about features that overlap.
 _FIRST = "; overlap='first' gives what they share to the first one"
 
 
