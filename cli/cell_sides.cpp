@@ -47,8 +47,7 @@ CellSet cells_of_sites(const FileName& file, const CellSideOptions& options, Job
   facts.name = table.name;
   if (table.sites.empty()) throw FileError(table.name + ": " + no_points);
   // Given longitudes and latitudes are kept to the digit.
-  facts.centers = table.is_lonlat() ? table.positions
-                                    : lonlats_from(triangulation.sphere().center, table.sites);
+  facts.centers = lonlats_of(table, triangulation.sphere().center);
   return cells.with_facts(std::move(facts));
 }
 

@@ -90,6 +90,7 @@ void tell_of_columns(const std::string& netcdf, const ReadOptions& read) {
 
 NetcdfSites Job::read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
                               std::span<const std::string> names) {
+  if (mesh.path.empty()) return read_grid(file, read, names);
   const auto part = file_and_variable(file);
   if (!part.second.empty()) names = {&part.second, 1};
   NetcdfSites sites;
@@ -139,12 +140,13 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   return sites;
 }
 
-// The triangulation has a view of the table's sites, not a copy.
-std::vector<LonLat> lonlats_from(const Point& center, std::vector<Point> points) {
-  for (Point& point : points) {
+std::vector<LonLat> lonlats_of(const SiteTable& table, const Point& center) {
+  if (table.is_lonlat()) return table.positions;
+  std::vector<Point> seen = table.sites;
+  for (Point& point : seen) {
     point = {point.x - center.x, point.y - center.y, point.z - center.z};
   }
-  return lonlats(points);
+  return lonlats(seen);
 }
 
 void move_to(const Point& center, SiteTable& table) {
@@ -155,6 +157,7 @@ void move_to(const Point& center, SiteTable& table) {
   table.positions.clear();
 }
 
+// The triangulation has a view of the table's sites, not a copy.
 Triangulation Job::triangulate(const SiteTable& table) {
   if (table.is_lonlat() && sphere().center != Point{}) {
     throw FileError(table.name +

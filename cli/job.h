@@ -58,7 +58,8 @@ class Job {
   /// grid. \throws FileError if it cannot be read
   NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
                         std::span<const std::string> names = {});
-  /// Reads sites as read_sites_on_mesh() does, and tells what the mesh lacks.
+  /// Reads sites as read_sites_on_mesh() does, and tells what the mesh lacks; as read_grid() does if
+  /// no mesh is named.
   /// \param file  the values, or one of its variables; then `names` may be empty
   NetcdfSites read_on_mesh(const FileName& file, const FileName& mesh, const ReadOptions& read,
                            std::span<const std::string> names);
@@ -116,8 +117,9 @@ auto with_places(const SiteTable& table, Work&& work) {
 /// Returns for each site whether it is a vertex: neither hidden nor a duplicate of another one.
 std::vector<bool> are_vertices(const Triangulation& triangulation);
 
-/// Returns longitudes and latitudes of points as they are seen from a center.
-std::vector<LonLat> lonlats_from(const Point& center, std::vector<Point> points);
+/// Returns the longitudes and latitudes of a table: those that it has, or those of its points as they
+/// are seen from a center.
+std::vector<LonLat> lonlats_of(const SiteTable& table, const Point& center);
 /// Makes points around a center of longitudes and latitudes, which are seen from there. Tables with
 /// x, y, z stay as they are.
 void move_to(const Point& center, SiteTable& table);

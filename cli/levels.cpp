@@ -76,7 +76,7 @@ std::vector<double> levels_at(double step, std::span<const double> values,
                               const std::string& option) {
   // More levels than this are a step in the wrong unit rather than a map.
   constexpr double most = 10'000;
-  // From here on doubles are no multiples of a step one by one.
+  // Beyond as many steps two multiples of a step may be one double.
   constexpr double most_steps = 0x1p53;
   double least = infinity;
   double largest = -infinity;

@@ -89,7 +89,7 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
     tell(table.name,
          {"left out " + count(table.num_unlocated, "target", "targets") + " without a place"});
   }
-  targets.side.points = table.is_lonlat() ? table.positions : lonlats_from(center, table.sites);
+  targets.side.points = lonlats_of(table, center);
   return targets;
 }
 
@@ -133,8 +133,7 @@ Weights regrid_weights(Job& job, RegridMethod method, const FileName& file, cons
 
 Extrapolator extrapolator_to(const Targets& targets, const NetcdfSites& grid, const Point& center,
                              const ExtrapolationOptions& options, const Execution& execution) {
-  const std::vector<LonLat> places =
-      grid.table.is_lonlat() ? grid.table.positions : lonlats_from(center, grid.table.sites);
+  const std::vector<LonLat> places = lonlats_of(grid.table, center);
   std::vector<Point> points = known_unit_vectors(targets.side.points);
   CompressedRows<Index> neighbors;
   if (options.method == Extrapolation::creep) {

@@ -94,11 +94,8 @@ ExitStatus run_in_cells(Job& job, const ContoursOptions& options) {
     throw FileError((path == "-" ? "<stdin>" : path) +
                     ": --method native needs a file of netCDF with a mesh");
   }
-  const FileName file = options.common.source();
-  const std::span<const std::string> names(&options.value, 1);
-  const NetcdfSites grid = options.mesh.empty()
-                               ? job.read_grid(file, options.common.read, names)
-                               : job.read_on_mesh(file, options.mesh, options.common.read, names);
+  const NetcdfSites grid = job.read_on_mesh(options.common.source(), options.mesh,
+                                            options.common.read, {&options.value, 1});
   const SiteTable& table = grid.table;
   std::vector<double> values = column_values(table, options.value, "--value");
   const std::vector<bool> takes_part = grid.unmasked();

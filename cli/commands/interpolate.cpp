@@ -236,8 +236,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const Interpo
   // Weights of points are not divided by areas. Areas and corners serve programs that read the
   // file.
   file.normalization = "none";
-  file.source.points = grid.table.is_lonlat() ? grid.table.positions
-                                              : lonlats_from(job.sphere().center, grid.table.sites);
+  file.source.points = lonlats_of(grid.table, job.sphere().center);
   if (grid.shape.size() > 1) file.source.shape = grid.shape;
   file.source.mask = grid.mask;
   file.target = std::move(targets.side);
@@ -285,6 +284,19 @@ void require_options(const InterpolateOptions& options, bool has_values) {
   }
 }
 
+// Throws UsageError if --source is given and INPUT is no netCDF, or does not say which variable is
+// on the mesh.
+void require_values_on_mesh(const InterpolateOptions& options, bool is_netcdf) {
+  if (options.mesh.empty()) return;
+  const FileName source = options.source_file();
+  if (!is_netcdf || source.path == "-") {
+    throw UsageError("--source: the values must be those of a file of netCDF");
+  }
+  if (options.columns.empty() && file_and_variable(source).second.empty()) {
+    throw UsageError("--source: --value NAME says which variable is on the mesh");
+  }
+}
+
 // Checks the options, reads both files, then interpolates values, makes weights, or does both.
 // netCDF needs no --value: all variables at the places of the sites are carried. Throws UsageError
 // for options that contradict each other, FileError for files that cannot be read.
@@ -296,17 +308,9 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
-  if (!options.mesh.empty() && (!is_netcdf || options.source_file().path == "-")) {
-    throw UsageError("--source: the values must be those of a file of netCDF");
-  }
-  if (!options.mesh.empty() && options.columns.empty() &&
-      file_and_variable(options.source_file()).second.empty()) {
-    throw UsageError("--source: --value NAME says which variable is on the mesh");
-  }
-  const FileName source = options.source_file();
-  const NetcdfSites grid = options.mesh.empty()
-                               ? job.read_grid(source, read, options.columns)
-                               : job.read_on_mesh(source, options.mesh, read, options.columns);
+  require_values_on_mesh(options, is_netcdf);
+  const NetcdfSites grid =
+      job.read_on_mesh(options.source_file(), options.mesh, read, options.columns);
   const SiteTable& table = grid.table;
   const std::optional<EdgeTable> edges = edges_of(options, table);
   const InterpolateMethod method = {options.interpolation, edges ? &*edges : nullptr};

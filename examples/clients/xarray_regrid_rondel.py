@@ -110,8 +110,8 @@ def once_around(grid: xr.Dataset, lon: Hashable) -> Iterator[xr.Dataset]:
     """Parts of a grid whose cells do not overlap, as those of 164 columns of 2.2 degrees do."""
     centers = grid[lon].values.astype(float)
     middles = (centers[1:] + centers[:-1]) / 2
-    ends = [2 * centers[0] - middles[0]], [2 * centers[-1] - middles[-1]]
-    sides = np.concatenate([ends[0], middles, ends[1]])
+    west, east = 2 * centers[0] - middles[0], 2 * centers[-1] - middles[-1]
+    sides = np.concatenate([[west], middles, [east]])
     begin = 0
     while begin < len(centers):
         is_within = np.abs(sides[begin + 1 :] - sides[begin]) <= 360 + 1e-9
