@@ -3,8 +3,6 @@
 
 #include "interpolation/vertex_fields.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -87,23 +85,9 @@ void VertexFields::take_means(const PreparedTriangulation& prepared) {
   const std::size_t num_fields = layout_.starts.size();
   for (const auto& sites : shared_places(prepared)) {
     double* const means = &by_vertex_[sites.vertex * num_fields];
-    const auto count = static_cast<double>(sites.sites.size());
     for (std::size_t f = 0; f < num_fields; ++f) {
-      const auto value = [&](Index i) {
-        return layout_.data[layout_.starts[f] + i * layout_.step];
-      };
-      double sum = 0;
-      for (const Index i : sites.sites) sum += value(i);
-      means[f] = sum / count;
-      if (!std::isinf(sum)) continue;
-      // Parts of the largest numbers have a sum, or one that rounding alone makes too large.
-      double mean = 0;
-      double largest = 0;
-      for (const Index i : sites.sites) {
-        mean += value(i) / count;
-        largest = std::max(largest, std::abs(value(i)));
-      }
-      means[f] = std::clamp(mean, -largest, largest);
+      means[f] = mean_of(
+          sites.sites, [&](Index i) { return layout_.data[layout_.starts[f] + i * layout_.step]; });
     }
   }
 }

@@ -9,6 +9,8 @@
 // index fields; vertices by spatial rank; sites
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -26,6 +28,23 @@ struct SharedSites {
 };
 // Returns all vertices with several sites, in increasing order.
 std::vector<SharedSites> shared_places(const PreparedTriangulation& prepared);
+
+// Returns the mean of the numbers value(i) of some sites, which is never beyond the largest of them.
+template <class Value>
+double mean_of(std::span<const Index> sites, const Value& value) {
+  const auto count = static_cast<double>(sites.size());
+  double sum = 0;
+  for (const Index i : sites) sum += value(i);
+  if (!std::isinf(sum)) return sum / count;
+  // Parts of the largest numbers have a sum, or one that rounding alone makes too large.
+  double mean = 0;
+  double largest = 0;
+  for (const Index i : sites) {
+    mean += value(i) / count;
+    largest = std::max(largest, std::abs(value(i)));
+  }
+  return std::clamp(mean, -largest, largest);
+}
 
 // Says where values are stored: that of field f at site i is data[starts[f] + i * step].
 struct FieldLayout {

@@ -120,9 +120,10 @@ void VertexGradients::take_means(const PreparedTriangulation& prepared,
                                  std::span<const Point> given) {
   for (const auto& [vertex, sites] : shared_places(prepared)) {
     for (std::size_t f = 0; f < num_fields_; ++f) {
-      Point sum{};
-      for (const Index i : sites) sum = sum + given[f * prepared.num_sites() + i];
-      by_vertex_[vertex * num_fields_ + f] = sum / static_cast<double>(sites.size());
+      const Point* const own = &given[f * prepared.num_sites()];
+      by_vertex_[vertex * num_fields_ + f] = {mean_of(sites, [&](Index i) { return own[i].x; }),
+                                              mean_of(sites, [&](Index i) { return own[i].y; }),
+                                              mean_of(sites, [&](Index i) { return own[i].z; })};
     }
   }
 }
