@@ -198,6 +198,8 @@ struct ValueAttribute {
   std::string type;  ///< NumPy's name of the type, "f4", "i2" ...; empty for a text
   std::string text;
   std::vector<double> numbers;
+  /// The same of the types "i8" and "u8", exactly; those of "u8" as bits. May be empty.
+  std::vector<std::int64_t> integers = {};
 };
 
 /// Replaces missing values by NaN, by the rules of read_fields(), among values that another reader
@@ -208,5 +210,15 @@ struct ValueAttribute {
 ///         number
 RONDEL_API void mark_missing(std::span<double> values, std::string_view type,
                              std::span<const ValueAttribute> attributes);
+
+/// Returns 64-bit integers of a file as the values that they are, by the rules of read_fields(): NaN
+/// where they are missing, which is decided exactly.
+/// \param integers  those of "u8" as bits
+/// \param type  "i8" or "u8"
+/// \throws InvalidInput for an integer that is neither missing nor a double, with its index, and as
+///         mark_missing()
+RONDEL_API std::vector<double> unpack_integers(std::span<const std::int64_t> integers,
+                                               std::string_view type,
+                                               std::span<const ValueAttribute> attributes);
 
 }  // namespace rondel

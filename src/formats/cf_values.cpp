@@ -140,8 +140,8 @@ void ValueRules::read_missing(const io::NetcdfVariable& variable) {
     const std::vector<double> values = numbers_of_attribute(variable, name);
     for (std::size_t i = 0; i < values.size(); ++i) {
       // The reader has marked those missing integers that are no doubles.
-      const bool is_exact = attribute->type != type_ || attribute->integers.size() <= i ||
-                            io::is_double(attribute->integers[i], type_);
+      const bool is_exact = !io::is_wide(type_) || attribute->integers.size() <= i ||
+                            io::is_double(attribute->integers[i], attribute->type);
       if (is_exact) missing_.push_back(as_type(values[i]));
     }
     // Rule 2: doubles are compared with this one in single precision.
@@ -164,8 +164,9 @@ void ValueRules::read_range(const io::NetcdfVariable& variable) {
   const auto bound = [&](const char* name, const std::vector<double>& numbers, std::size_t i,
                          bool is_lower) {
     const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
-    const bool is_exact = attribute->type == type_ && attribute->integers.size() > i;
-    return is_exact ? io::bound_as_double(attribute->integers[i], type_, is_lower) : numbers[i];
+    const bool is_exact = attribute->integers.size() > i;
+    return is_exact ? io::bound_as_double(attribute->integers[i], attribute->type, is_lower)
+                    : numbers[i];
   };
   if (range.size() == 2) {
     lowest_ = bound("valid_range", range, 0, true);
@@ -309,18 +310,57 @@ std::string_view name_of(io::NetcdfType type) {
 
 namespace rondel {
 
-void mark_missing(std::span<double> values, std::string_view type,
-                  std::span<const ValueAttribute> attributes) {
+namespace {
+
+io::NetcdfVariable variable_of(std::string_view type, std::span<const ValueAttribute> attributes) {
   io::NetcdfVariable variable{"values", formats::type_named(type), {}, {}};
-  for (const ValueAttribute& attribute : attributes) {
-    variable.attributes.push_back(
-        {attribute.name, formats::type_named(attribute.type), attribute.text, attribute.numbers});
+  for (const ValueAttribute& given : attributes) {
+    io::NetcdfAttribute attribute{given.name, formats::type_named(given.type), given.text,
+                                  given.numbers};
+    if (io::is_wide(attribute.type) && given.integers.size() == given.numbers.size()) {
+      attribute.integers = given.integers;
+    }
+    variable.attributes.push_back(std::move(attribute));
   }
+  return variable;
+}
+
+formats::ValueRules rules_of(const io::NetcdfVariable& variable) {
   try {
-    formats::ValueRules(variable).apply_to_unpacked(values);
+    return formats::ValueRules(variable);
   } catch (const io::BadValue& bad) {
     throw InvalidInput(bad.what(), 0);
   }
+}
+
+}  // namespace
+
+void mark_missing(std::span<double> values, std::string_view type,
+                  std::span<const ValueAttribute> attributes) {
+  io::NetcdfVariable variable = variable_of(type, attributes);
+  for (io::NetcdfAttribute& attribute : variable.attributes) {
+    // Whoever unpacked the values may have rounded them, so that these are compared as doubles.
+    if (!attribute.name.starts_with("valid_")) attribute.integers.clear();
+  }
+  rules_of(variable).apply_to_unpacked(values);
+}
+
+std::vector<double> unpack_integers(std::span<const std::int64_t> integers, std::string_view type,
+                                    std::span<const ValueAttribute> attributes) {
+  const io::NetcdfVariable variable = variable_of(type, attributes);
+  if (!io::is_wide(variable.type)) {
+    throw InvalidInput("'" + std::string(type) + "' is no type of 64-bit integers", 0);
+  }
+  const formats::ValueRules rules = rules_of(variable);
+  std::vector<double> values(integers.size());
+  const std::size_t first = io::round_to_doubles(variable, integers, values);
+  if (first < integers.size()) {
+    throw InvalidInput(
+        "has the integer " + io::text_of(integers[first], variable.type) + ", which is no double",
+        first);
+  }
+  rules.apply(values);
+  return values;
 }
 
 }  // namespace rondel

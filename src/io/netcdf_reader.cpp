@@ -243,10 +243,7 @@ std::vector<double> NetcdfReader::rounded_numbers(const VariableInFile& variable
   std::vector<std::int64_t> wide(variable.num_values);
   read_wide(variable, 0, wide);
   std::vector<double> values(wide.size());
-  to_doubles(variable, wide, values, true);
-  for (std::size_t i = 0; i < wide.size(); ++i) {
-    is_rounded |= !std::isnan(values[i]) && !is_double(wide[i], variable.type);
-  }
+  is_rounded |= round_to_doubles(variable, wide, values) < wide.size();
   return values;
 }
 

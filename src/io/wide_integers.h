@@ -3,7 +3,7 @@
 
 // Converts 64-bit integers of netCDF to doubles. Integers that are no doubles are compared exactly
 // with the attributes that say what is missing: _FillValue, missing_value, valid_min, valid_max,
-// valid_range of the same type, and the fill that netCDF writes. ValueRules compares those that are
+// valid_range, and the fill that netCDF writes. ValueRules compares those that are
 // doubles.
 //
 // in    integers of a variable, with its attributes
@@ -11,8 +11,10 @@
 // index values of the variable
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "io/netcdf_format.h"
 
@@ -30,9 +32,17 @@ bool is_double(std::int64_t bits, NetcdfType type);
 // that is not above an upper one.
 double bound_as_double(std::int64_t bits, NetcdfType type, bool is_lower);
 
+// Returns the digits of an integer of this type.
+std::string text_of(std::int64_t bits, NetcdfType type);
+
 // Sets `out` to the integers of a variable, those of uint64 as bits; NaN where one is missing and
-// no double. Throws BadValue for others that are no doubles; if `may_round` they are rounded.
+// no double. Others that are no doubles are rounded. Returns the index of the first one of these, or
+// the number of integers.
+std::size_t round_to_doubles(const NetcdfVariable& variable, std::span<const std::int64_t> integers,
+                             std::span<double> out);
+
+// Sets `out` as round_to_doubles() does, and throws BadValue where that rounds.
 void to_doubles(const NetcdfVariable& variable, std::span<const std::int64_t> integers,
-                std::span<double> out, bool may_round = false);
+                std::span<double> out);
 
 }  // namespace rondel::io

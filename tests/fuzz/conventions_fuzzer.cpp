@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -148,6 +149,33 @@ void test_same(ByteSource& source) {
   require(is_same_place(a, b, 1) == is_same_place(b, a, 1), "neither place is the first");
 }
 
+// Integers around those from which on not all are doubles.
+std::int64_t near_power_of_two(ByteSource& source) {
+  const auto power = static_cast<std::int64_t>(std::uint64_t{1} << (50U + source.below(13)));
+  const std::int64_t near = static_cast<std::int64_t>(source.below(7)) - 3;
+  return source.below(2) == 0 ? power + near : near - power;
+}
+
+// Integers of 64 bits stay what they are, are missing, or are refused by their digits. There is no
+// scale_factor among the attributes, which would make other numbers of them.
+void test_integers(ByteSource& source, std::span<const ValueAttribute> given) {
+  std::vector<ValueAttribute> attributes;
+  for (const ValueAttribute& attribute : given) {
+    if (attribute.name == "_FillValue" || attribute.name.starts_with("valid_")) {
+      attributes.push_back(attribute);
+    }
+  }
+  const std::int64_t integer = near_power_of_two(source);
+  try {
+    const double found = unpack_integers({&integer, 1}, "i8", attributes).front();
+    require(std::isnan(found) || static_cast<std::int64_t>(found) == integer,
+            "an integer stays or is missing");
+  } catch (const InvalidInput& error) {
+    require(std::string(error.what()).find(std::to_string(integer)) != std::string::npos,
+            "a message names the integer");
+  }
+}
+
 void test_missing(ByteSource& source) {
   constexpr const char* types[] = {"i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4", "f8"};
   constexpr const char* attribute_names[] = {"_FillValue",   "missing_value", "valid_min",
@@ -163,7 +191,13 @@ void test_missing(ByteSource& source) {
     attribute.type = one_of(source, types);
     attribute.numbers.resize(1 + source.below(2));
     for (double& number : attribute.numbers) number = source.small();
+    if (attribute.type.back() != '8' || attribute.type.front() == 'f') continue;
+    for (double& number : attribute.numbers) {
+      attribute.integers.push_back(near_power_of_two(source));
+      number = static_cast<double>(attribute.integers.back());
+    }
   }
+  test_integers(source, attributes);
   const std::string type = one_of(source, types);
   std::vector<double> values(source.below(8));
   for (double& value : values) value = source.below(4) == 0 ? source.any_double() : source.small();

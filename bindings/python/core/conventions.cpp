@@ -61,18 +61,19 @@ PairOut pair_out(const std::vector<VariableHeader>& headers, const CoordinatePai
   return out;
 }
 
-// Marks missing values as NaN; an attribute has a name, type, text and numbers.
-using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>>;
+// An attribute has a name, type, text, numbers and, of 64-bit integers, their bits.
+using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>,
+                                    std::vector<std::int64_t>>;
 using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+using BitsIn = nb::ndarray<const std::int64_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-void mark_missing_of(const NumbersInOut& values, const std::string& type,
-                     const std::vector<ValueAttributeIn>& in) {
+std::vector<ValueAttribute> attributes_of(const std::vector<ValueAttributeIn>& in) {
   std::vector<ValueAttribute> attributes;
   attributes.reserve(in.size());
-  for (const auto& [name, of_type, text, numbers] : in) {
-    attributes.push_back({name, of_type, text, numbers});
+  for (const auto& [name, type, text, numbers, integers] : in) {
+    attributes.push_back({name, type, text, numbers, integers});
   }
-  mark_missing({values.data(), values.size()}, type, attributes);
+  return attributes;
 }
 
 // Adds what says of values where they are and which are missing.
@@ -99,8 +100,21 @@ void add_value_functions(nb::module_& module) {
                                    {lat.data(), lat.size()});
       },
       nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
-  module.def("mark_missing", &mark_missing_of, nb::arg("values").noconvert(), nb::arg("type"),
-             nb::arg("attributes"));
+  module.def(
+      "mark_missing",
+      [](const NumbersInOut& values, const std::string& type,
+         const std::vector<ValueAttributeIn>& attributes) {
+        mark_missing({values.data(), values.size()}, type, attributes_of(attributes));
+      },
+      nb::arg("values").noconvert(), nb::arg("type"), nb::arg("attributes"));
+  module.def(
+      "unpack_integers",
+      [](const BitsIn& bits, const std::string& type,
+         const std::vector<ValueAttributeIn>& attributes) {
+        return to_array<double>(
+            unpack_integers(rows_of<std::int64_t>(bits), type, attributes_of(attributes)));
+      },
+      nb::arg("integers").noconvert(), nb::arg("type"), nb::arg("attributes"));
   module.def(
       "axis_lines",
       [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {

@@ -13,9 +13,8 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._arrays import EXACT, as_mask, require_doubles
-from ._errors import warn_caller
-from ._properties import is_double
+from ._arrays import EXACT, as_mask
+from ._errors import InvalidInput, warn_caller
 from ._types import BoolArray
 
 
@@ -54,7 +53,6 @@ def _is_packed(item: Any) -> bool:
 _BOUNDS = ("valid_min", "valid_max", "valid_range")
 OF_VALUES = ("_FillValue", "missing_value", *_BOUNDS, "_Unsigned")
 _PACKING = ("scale_factor", "add_offset")
-_DEFAULT_FILLS = {"i": -(2**63) + 2, "u": 2**64 - 2}  # netCDF's for integers of 64 bits
 
 
 def _code(dtype: Any) -> str | None:
@@ -122,44 +120,18 @@ def _marked(values: Any, stored_kind: str, known: dict[str, Any], name: str) -> 
     """The values as float64 with NaN where the attributes call them missing. Integers of 64 bits
     are compared exactly; one that is neither missing nor a double is an error.
     """
-    found = np.array(values, np.float64, order="C")
     if not _is_wide(values.dtype):
+        found = np.array(values, np.float64, order="C")
         _core.mark_missing(found.reshape(-1), stored_kind, _attributes_of(known))
         return found
-    attributes = _attributes_of(known, only_doubles=True)
-    if not any(attribute[0] == "_FillValue" for attribute in attributes):
-        # Without it the rounded default of netCDF would be missing.
-        attributes.append(("_FillValue", "f8", "", [np.nan]))
-    _core.mark_missing(found.reshape(-1), stored_kind, attributes)
-    large = np.unique(values[(values > EXACT) | (values < -EXACT)])
-    uncertain = [value for value in large.tolist() if not is_double(value)]
-    if uncertain:
-        lost = [value for value in uncertain if _is_missing_integer(value, known, values.dtype)]
-        is_lost = np.isin(values, np.array(lost, values.dtype))
-        require_doubles(np.where(is_lost, 0, values), name, "has")
-        found[is_lost] = np.nan
-    return found
-
-
-def _is_missing_integer(value: int, known: dict[str, Any], dtype: Any) -> bool:
-    """Whether the attributes, or netCDF where there is no `_FillValue`, call it missing."""
-    numbers = {
-        name: np.atleast_1d(np.asarray(given)).tolist()
-        for name, given in known.items()
-        if np.asarray(given).dtype.kind in "iuf"
-    }
-    for number in numbers.get("_FillValue", []) + numbers.get("missing_value", []):
-        # Floating-point numbers are less precise: these are compared as doubles.
-        if number == (value if isinstance(number, int) else float(value)):
-            return True
-    if "_FillValue" not in known and value == _DEFAULT_FILLS[dtype.kind]:
-        return True
-    bounds = numbers.get("valid_range", [])
-    low, high = bounds if len(bounds) == 2 else (-np.inf, np.inf)
-    least, most = numbers.get("valid_min", []), numbers.get("valid_max", [])
-    low = least[0] if len(least) == 1 else low
-    high = most[0] if len(most) == 1 else high
-    return bool(value < low or value > high)
+    bits = np.ascontiguousarray(values, values.dtype.newbyteorder("=")).reshape(-1).view(np.int64)
+    own = {key: text for key, text in known.items() if key not in (*_PACKING, "_Unsigned")}
+    kind = f"{values.dtype.kind}8"
+    try:
+        return _core.unpack_integers(bits, kind, _attributes_of(own)).reshape(values.shape)
+    except InvalidInput as error:
+        at = int(np.unravel_index(error.index, values.shape)[-1]) if values.ndim else 0
+        raise InvalidInput(f"{name} {error}", at) from None
 
 
 def _name(array: xarray.DataArray) -> str:
@@ -189,40 +161,21 @@ def _drop_packed_bounds(array: xarray.DataArray, known: dict[str, Any]) -> None:
 
 
 def _attributes_of(
-    known: dict[str, Any], *, only_doubles: bool = False
-) -> list[tuple[str, str, str, list[float]]]:
-    """Name, type, text and numbers of each attribute, for the library. A bound that is no double
-    becomes the next double inside; other such integers are rounded, or left out.
-    """
-    attributes: list[tuple[str, str, str, list[float]]] = []
+    known: dict[str, Any],
+) -> list[tuple[str, str, str, list[float], list[int]]]:
+    """Name, type, text, numbers and bits of 64-bit integers of each attribute, for the library."""
+    attributes: list[tuple[str, str, str, list[float], list[int]]] = []
     for name, value in known.items():
         if isinstance(value, str):
-            attributes.append((name, "", value, []))
+            attributes.append((name, "", value, [], []))
             continue
         given = np.atleast_1d(np.asarray(value))
         kind = _code(given.dtype)
         if kind is None:
             continue
-        numbers = given.tolist()
-        if name in _BOUNDS:
-            numbers = [
-                _inner_bound(n, is_lower=name == "valid_min" or (name == "valid_range" and k == 0))
-                for k, n in enumerate(numbers)
-            ]
-        elif only_doubles:
-            numbers = [n for n in numbers if isinstance(n, float) or is_double(n)]
-            if not numbers:
-                continue
-        attributes.append((name, kind, "", [float(n) for n in numbers]))
+        bits = given.astype(f"{given.dtype.kind}8").view(np.int64) if _is_wide(given.dtype) else []
+        attributes.append((name, kind, "", [float(n) for n in given], [int(n) for n in bits]))
     return attributes
-
-
-def _inner_bound(bound: Any, *, is_lower: bool) -> float:
-    """The double nearest to a bound among those that it allows."""
-    rounded = float(bound)
-    if bound == rounded or np.isnan(rounded) or (rounded > bound) == is_lower:
-        return rounded
-    return float(np.nextafter(rounded, np.inf if is_lower else -np.inf))
 
 
 def _variables(data: Any) -> Any:

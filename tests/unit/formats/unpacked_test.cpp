@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Numbers that another reader has unpacked, in double or in single precision, are missing where
-// the packed ones of the file are.
+// the packed ones of the file are. Integers of 64 bits are compared exactly.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "formats/cf_values.h"
 #include "rondel/conventions.h"
+#include "rondel/error.h"
 
 namespace rondel::test {
 namespace {
@@ -126,6 +130,113 @@ TEST(unpacked_numbers, bounds_themselves_are_not_missing) {
       EXPECT_EQ(std::isnan(values[k]), missing[k]) << low << ' ' << k;
     }
   }
+}
+
+// What unpack_integers() should say of an integer, by the rules of read_fields() in long doubles, of
+// which those of most machines hold all integers of 64 bits.
+struct WideOracle {
+  std::string type;
+  std::vector<ValueAttribute> attributes;
+
+  static long double exact(const ValueAttribute& attribute, std::size_t i) {
+    if (attribute.integers.empty()) return static_cast<long double>(attribute.numbers[i]);
+    const std::int64_t bits = attribute.integers[i];
+    return attribute.type == "u8" ? static_cast<long double>(static_cast<std::uint64_t>(bits))
+                                  : static_cast<long double>(bits);
+  }
+  [[nodiscard]] bool is_missing(std::int64_t bits) const {
+    const bool is_unsigned = type == "u8";
+    const auto value = is_unsigned ? static_cast<long double>(static_cast<std::uint64_t>(bits))
+                                   : static_cast<long double>(bits);
+    const long double fill = is_unsigned ? 0x1p64L - 2 : 2 - 0x1p63L;
+    bool has_fill = false;
+    bool is_gone = false;
+    for (const ValueAttribute& attribute : attributes) {
+      const std::string& name = attribute.name;
+      has_fill = has_fill || name == "_FillValue";
+      for (std::size_t i = 0; i < attribute.numbers.size(); ++i) {
+        const long double number = exact(attribute, i);
+        // Doubles and floats are less precise: what rounds to one of them is it.
+        const bool is_one = attribute.integers.empty()
+                                ? static_cast<double>(value) == attribute.numbers[i]
+                                : value == number;
+        const bool is_low = name == "valid_min" || (name == "valid_range" && i == 0);
+        const bool is_fill = name == "_FillValue" || name == "missing_value";
+        is_gone = is_gone || (is_fill ? is_one : is_low ? value < number : value > number);
+      }
+    }
+    return is_gone || (!has_fill && value == fill);
+  }
+};
+
+std::int64_t some_integer(std::mt19937_64& random) {
+  const int shift = static_cast<int>(random() % 13) + 50;
+  const std::int64_t near = static_cast<std::int64_t>(random() % 5) - 2;
+  const auto large = static_cast<std::int64_t>(std::uint64_t{1} << static_cast<unsigned>(shift));
+  switch (random() % 6) {
+    case 0:
+      return near;
+    case 1:
+      return -large + near;
+    case 2:
+      return std::numeric_limits<std::int64_t>::min() + 2 + near;
+    default:
+      return large + near;
+  }
+}
+
+ValueAttribute some_attribute(std::mt19937_64& random, const std::string& name) {
+  static const std::string types[] = {"i8", "u8", "f8"};
+  ValueAttribute attribute{name, types[random() % 3], "", {}};
+  for (int k = name == "valid_range" ? 2 : 1; k > 0; --k) {
+    const std::int64_t bits = some_integer(random);
+    if (attribute.type == "f8") {
+      attribute.numbers.push_back(static_cast<double>(bits));
+      continue;
+    }
+    attribute.integers.push_back(bits);
+    attribute.numbers.push_back(attribute.type == "u8"
+                                    ? static_cast<double>(static_cast<std::uint64_t>(bits))
+                                    : static_cast<double>(bits));
+  }
+  return attribute;
+}
+
+TEST(unpacked_numbers, integers_of_64_bits_are_compared_exactly) {
+  if (std::numeric_limits<long double>::digits < 64) GTEST_SKIP();
+  std::mt19937_64 random(1);
+  std::size_t num_missing = 0;
+  std::size_t num_refused = 0;
+  for (int round = 0; round < 20000; ++round) {
+    WideOracle oracle{round % 2 == 0 ? "i8" : "u8", {}};
+    for (const char* name : {"_FillValue", "missing_value", "valid_min", "valid_max"}) {
+      if (random() % 2 == 0) oracle.attributes.push_back(some_attribute(random, name));
+    }
+    // Beside valid_min or valid_max it does not count for doubles.
+    if (oracle.attributes.empty()) {
+      oracle.attributes.push_back(some_attribute(random, "valid_range"));
+    }
+    const std::int64_t bits = some_integer(random);
+    const double rounded = oracle.type == "u8"
+                               ? static_cast<double>(static_cast<std::uint64_t>(bits))
+                               : static_cast<double>(bits);
+    const bool is_missing = oracle.is_missing(bits);
+    num_missing += is_missing ? 1 : 0;
+    try {
+      const double found = unpack_integers({&bits, 1}, oracle.type, oracle.attributes).front();
+      EXPECT_EQ(std::isnan(found), is_missing) << bits << ' ' << round;
+      if (!is_missing) EXPECT_EQ(found, rounded) << bits;
+    } catch (const InvalidInput& error) {
+      ++num_refused;
+      EXPECT_FALSE(is_missing) << bits << ' ' << round << error.what();
+      const std::string digits = oracle.type == "u8"
+                                     ? std::to_string(static_cast<std::uint64_t>(bits))
+                                     : std::to_string(bits);
+      EXPECT_EQ(error.what(), "has the integer " + digits + ", which is no double");
+    }
+  }
+  EXPECT_GT(num_missing, 5000U);
+  EXPECT_GT(num_refused, 500U);
 }
 
 }  // namespace
