@@ -64,7 +64,8 @@ struct RefinedMesh {
 ///    each of these is a chain of edges, which bends by the rounding of its points to doubles.
 /// 2. They are those of constrained_delaunay() of all vertices and these chains.
 /// 3. Each angle of a triangle, between its chords, is at least the smallest angle, except where
-///    RefineReport counts triangles. Edges of triangles are at most 1.5 times the spacing.
+///    RefineReport counts triangles. Edges of triangles are at most 1.5 times the spacing,
+///    both as chords.
 /// 4. No edge is shorter than a part of the distances that the sites, the constrained edges and the
 ///    spacing have there; the proof is in docs/theory/refinement.md (Chew, Guaranteed-quality mesh
 ///    generation for curved surfaces, SoCG 1993; Shewchuk, Computational Geometry 22, 2002; Üngör,

@@ -11,6 +11,7 @@ import numpy as np
 import xarray
 
 from . import _core
+from ._arrays import require_finite_or_nan
 from ._blocks import AnyWeights, OutputChunks, in_blocks
 from ._coordinates import (
     at_places,
@@ -54,9 +55,10 @@ def carried(
     data = unpacked(data)
     source.require_same(data)
 
-    def applied(values: Any, marker: Any, is_largest: bool) -> Any:
+    def applied(values: Any, name: str, marker: Any, is_largest: bool) -> Any:
         apply = partial(
             _applied_rows,
+            name=name,
             num_dims=len(source.dims),
             marker=marker,
             unmapped=unmapped,
@@ -95,6 +97,7 @@ def carried(
             keep_attrs=keep_attrs,
             dask="allowed",
             kwargs={
+                "name": "the data" if array.name is None else f"the values of {array.name!r}",
                 "marker": missing_marker(array),
                 "is_largest": how == "largest_share" or (how == "by_kind" and _has_flags(array)),
             },
@@ -166,6 +169,7 @@ def _applied_rows(
     values: Any,
     weights: AnyWeights,
     *,
+    name: str,
     num_dims: int,
     marker: Any,
     unmapped: float,
@@ -173,13 +177,15 @@ def _applied_rows(
     **rules: Any,
 ) -> Any:
     """The values at the targets of some rows, in one axis, of fields whose last axes, so many, are
-    those of the source.
+    those of the source. Infinite values are an error, as in files.
     """
     dtype = _kind(values)
     if marker is not None:
         values = marker(values)
     leading = values.shape[: values.ndim - num_dims]
     flat = values.reshape(*leading, weights.shape[1])
+    if flat.dtype.kind == "f":
+        require_finite_or_nan(flat, name)
     if coincident is not None and flat.dtype.kind == "f":
         flat = _with_values_that_are_there(flat, coincident)
     found = weights.apply(flat, **rules)

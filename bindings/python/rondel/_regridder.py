@@ -368,6 +368,9 @@ class Regridder(Described):
             the source, whatever their names are, or square data without coordinates have
             dimensions of names in the other order (lon, lat); or if they share a dimension with
             the target, such as the time of a track; then rename the target's dimension.
+        InvalidInput
+            If a value is infinite, with its index in the source; arrays of Dask raise it when they
+            are computed.
 
         """
         import xarray

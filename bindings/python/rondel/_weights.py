@@ -197,9 +197,6 @@ class Weights(Described):
         ValueError
             If the last axis of the values is not n, or `max_missing` is out of range or given
             without `skipna`.
-
-        Raises
-        ------
         InvalidInput
             If a weight is infinite or NaN, with its index in `data`.
 

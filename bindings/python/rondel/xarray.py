@@ -134,6 +134,9 @@ class RondelAccessor:
             If longitudes or latitudes are not found, or are those of a rotated pole, a projection
             or a mesh in the plane (``on_a_sphere = NO``), the weights are of other places, or
             data and target share a dimension, such as the time of a track: rename the target's.
+        InvalidInput
+            If a value is infinite, with its index in the source; arrays of Dask raise it when they
+            are computed.
 
         """
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)

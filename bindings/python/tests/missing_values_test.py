@@ -271,3 +271,36 @@ def test_vectors_of_integers_are_not_rounded():
     regridder = rondel.Regridder(ds, AXES, "nearest_s2d")
     with pytest.raises(rondel.InvalidInput, match="'u' has the integer 9007199254740993"):
         regridder(ds, vectors=[("u", "v")])
+
+
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("chunks", [None, {"lat": 1}])
+def test_infinite_values_are_refused_by_their_place(dtype, chunks):
+    values = np.ones((2, 3, 4), dtype)
+    values[1, 2, 3] = -np.inf
+    axes = {**AXES, "time": [0, 1]}
+    field = xarray.DataArray(values, axes, ("time", "lat", "lon"), "t")
+    if chunks is not None:
+        pytest.importorskip("dask")
+        field = field.chunk(chunks)
+    for ask in (
+        lambda: rondel.Regridder(AXES, AXES, "conservative")(field),
+        lambda: field.rondel.interpolate((LON, LAT), "linear", grid=True),
+    ):
+        with pytest.raises(rondel.InvalidInput, match="values of 't' have an infinite number"):
+            np.asarray(ask())
+
+
+@pytest.mark.parametrize("kind", ["i8", "u8"])
+def test_bounds_of_other_types_hold_for_integers_that_are_no_doubles(kind, tmp_path):
+    raw = np.arange(12).reshape(3, 4).astype(kind)
+    raw[1, 2] = NO_DOUBLE
+    for most in (np.int32(11), 11.5, np.float32(2**40), np.uint64(11)):
+        field = xarray.DataArray(raw, AXES, ("lat", "lon"), "t", {"valid_max": most})
+        found = field.rondel.interpolate((LON, LAT), "nearest", grid=True)
+        assert np.isnan(found).values.nonzero() == ([1], [2])
+        if TOOL is None or isinstance(most, np.uint64):
+            continue
+        path = tmp_path / "wide.nc"
+        write(path, kind, {"valid_max": most}, raw)
+        assert np.array_equal(by_tool(path, tmp_path), found, equal_nan=True)
