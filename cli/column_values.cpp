@@ -20,21 +20,36 @@
 namespace rondel::cli {
 namespace {
 
+// What a cell holds: a finite number, NaN if the cell is empty or says so, or what is wrong.
+struct CellNumber {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  const char* fault = nullptr;
+};
+
+CellNumber number_of(std::string_view cell) {
+  CellNumber number;
+  const auto first = cell.find_first_not_of(" \t+");
+  if (first == std::string_view::npos) return number;
+  cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
+  if (cell == "NA" || cell == "null") return number;
+  const auto [end, error] = double_from(cell.data(), cell.data() + cell.size(), number.value);
+  if (end != cell.data() + cell.size() || error == std::errc::invalid_argument) {
+    number.fault = "is not a number";
+  } else if (std::isinf(number.value)) {
+    number.fault =
+        error == std::errc::result_out_of_range ? "is beyond the largest number" : "is not finite";
+  }
+  return number;
+}
+
 // Returns the number in a cell; NaN if the cell is empty or says so.
 double number_in(std::string_view cell, const SiteTable& table, std::size_t site,
                  const std::string& name) {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  const auto first = cell.find_first_not_of(" \t+");
-  if (first == std::string_view::npos) return value;
-  cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
-  if (cell == "NA" || cell == "null") return value;
-  const auto [end, error] = double_from(cell.data(), cell.data() + cell.size(), value);
-  const bool is_number = end == cell.data() + cell.size() && error != std::errc::invalid_argument;
-  const bool is_beyond = is_number && error == std::errc::result_out_of_range;
-  if (is_number && !std::isinf(value)) return value;
-  const char* why = "is not a number";
-  if (is_number) why = is_beyond ? "is beyond the largest number" : "is not finite";
-  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' " + why);
+  const CellNumber number = number_of(cell);
+  if (number.fault == nullptr) return number.value;
+  cell.remove_prefix(std::min(cell.find_first_not_of(" \t+"), cell.size()));
+  cell = cell.substr(0, cell.find_last_not_of(" \t") + 1);
+  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' " + number.fault);
 }
 
 // Returns a field of a netCDF file at the sites: that of a variable with one field, or one of
@@ -83,6 +98,16 @@ std::vector<double> column_values(const SiteTable& table, const std::string& nam
     begin = end;
   }
   return values;
+}
+
+bool holds_numbers(const Column& column) {
+  bool has_number = false;
+  for (std::size_t row = 0; row < column.ends.size(); ++row) {
+    const CellNumber number = number_of(column.cell(row));
+    if (number.fault != nullptr) return false;
+    has_number = has_number || !std::isnan(number.value);
+  }
+  return has_number || column.is_numeric;
 }
 
 Column numeric_column(const std::string& name, const std::vector<double>& values) {

@@ -24,6 +24,10 @@ namespace rondel::cli {
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option);
 
+/// True if column_values() can read the column: every cell is a finite number or missing, and at
+/// least one is a number or all are empty.
+bool holds_numbers(const Column& column);
+
 /// Returns values as a column of text, in the shortest digits that read back as the same doubles;
 /// NaN is an empty cell.
 Column numeric_column(const std::string& name, const std::vector<double>& values);

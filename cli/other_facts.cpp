@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "column_values.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/feature_cells.h"
@@ -39,15 +40,6 @@ FeatureKinds kinds_of(const FeatureTable& table) {
     kinds.polygons += table.polygons.cells[i] < table.polygons.cells[i + 1] ? 1 : 0;
   }
   return kinds;
-}
-
-// Returns the array "columns" of a report.
-FactsJson json_of_columns(const std::vector<Column>& columns) {
-  FactsJson array = FactsJson::array();
-  for (const Column& column : columns) {
-    array.push_back({{"name", column.name}, {"kind", column.is_numeric ? "number" : "text"}});
-  }
-  return array;
 }
 
 // Returns the object as text. Names that are not UTF-8 are mended by the replacement character.
@@ -111,12 +103,20 @@ std::optional<OtherFacts> facts_if_read(const Read& read) {
 
 }  // namespace
 
+nlohmann::ordered_json json_of_columns(const std::vector<Column>& columns) {
+  FactsJson array = FactsJson::array();
+  for (const Column& column : columns) {
+    array.push_back({{"name", column.name}, {"kind", holds_numbers(column) ? "number" : "text"}});
+  }
+  return array;
+}
+
 std::string line_of_columns(const std::vector<Column>& columns) {
   if (columns.empty()) return {};
   std::string text = "columns:";
   for (const Column& column : columns) {
     text += (&column == columns.data() ? " " : ", ") + column.name +
-            (column.is_numeric ? " (number)" : " (text)");
+            (holds_numbers(column) ? " (number)" : " (text)");
   }
   return text + '\n';
 }
@@ -124,7 +124,7 @@ std::string line_of_columns(const std::vector<Column>& columns) {
 std::optional<OtherFacts> other_facts_of(const CommonOptions& common, Job& job) {
   const FileName file = common.source();
   if (common.input == "-") return std::nullopt;
-  if (common.input.ends_with(".geojson") || common.input.ends_with(".json")) {
+  if (is_geojson(file)) {
     return facts_if_read([&] {
       const PolygonOptions options = {.invalid = InvalidPolygons::repair};
       return facts_of(read_features(file, options, job.execution()), job.seconds());

@@ -8,6 +8,7 @@
 /// out   text for people and a JSON object; nothing if the file holds something else
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,9 @@ struct OtherFacts {
   std::string json;
   std::string text;
 };
+
+/// Returns the array "columns" of a report: names, and whether column_values() can read them.
+nlohmann::ordered_json json_of_columns(const std::vector<Column>& columns);
 
 /// Returns the line of a report that lists columns; an empty text if there are none.
 std::string line_of_columns(const std::vector<Column>& columns);

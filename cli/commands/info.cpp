@@ -4,10 +4,12 @@
 // rondel info: says what a file of sites holds: how many, in which coordinates and bounds, how many
 // are in one place or hidden, which columns there are, and which commands take it.
 // in    sites; a file whose sites are all in one place, or at the center, is described as well;
-//       triangles in a format of ocean models; features with lines and polygons; weights
+//       fields of netCDF; triangles in a format of ocean models; features with lines and polygons;
+//       weights; the name of a grid
 // out   text for people, or one JSON object
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +21,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "column_values.h"
+#include "field_facts.h"
 #include "job.h"
 #include "other_facts.h"
 #include "process.h"
@@ -26,6 +30,8 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
+#include "rondel/named_grids.h"
+#include "targets.h"
 #include "triangle_output.h"
 
 namespace rondel::cli {
@@ -144,28 +150,26 @@ Json json_of_coordinates(const SiteTable& table) {
 
 // Returns the object of --json. Names of columns that are not UTF-8 are mended by the replacement
 // character.
-std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& seconds) {
+std::string json_of(const SiteTable& table, const Facts& facts,
+                    const std::optional<FieldSet>& fields, const Seconds& seconds) {
   Json bounds = Json::object();
   for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
-  Json columns = Json::array();
-  for (const Column& column : table.columns) {
-    columns.push_back({{"name", column.name}, {"kind", column.is_numeric ? "number" : "text"}});
-  }
   const Triangulation& triangulation = facts.triangulation;
-  const Json json = {{"sites", table.sites.size()},
-                     {"coordinates", json_of_coordinates(table)},
-                     {"circles", !table.radii_deg.empty()},
-                     {"bounds", bounds},
-                     {"distance_from_sphere", json_of(facts.height)},
-                     {"at_center", facts.at_center},
-                     {"duplicates", triangulation.duplicates().size()},
-                     {"hidden", triangulation.hidden().size()},
-                     {"unlocated", table.num_unlocated},
-                     {"dimension", triangulation.dimension()},
-                     {"model", name_of(triangulation.model())},
-                     {"columns", columns},
-                     {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
-                     {"peak_memory_bytes", peak_memory_bytes()}};
+  Json json = {{"sites", table.sites.size()},
+               {"coordinates", json_of_coordinates(table)},
+               {"circles", !table.radii_deg.empty()},
+               {"bounds", bounds},
+               {"distance_from_sphere", json_of(facts.height)},
+               {"at_center", facts.at_center},
+               {"duplicates", triangulation.duplicates().size()},
+               {"hidden", triangulation.hidden().size()},
+               {"unlocated", table.num_unlocated},
+               {"dimension", triangulation.dimension()},
+               {"model", name_of(triangulation.model())},
+               {"columns", json_of_columns(table.columns)},
+               {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
+               {"peak_memory_bytes", peak_memory_bytes()}};
+  if (fields) add_facts_of(*fields, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -199,32 +203,46 @@ std::string name_of_values(const SiteTable& table, const CommonOptions& common) 
     const bool is_coordinate =
         has_coordinates && (std::ranges::count(coordinates, column.name) > 0 ||
                             std::ranges::count(given, column.name) > 0);
-    if (column.is_numeric && !is_coordinate) return column.name;
+    if (!is_coordinate && holds_numbers(column)) return column.name;
   }
   return {};
 }
 
-// Returns the name of the first variable with several fields at the sites, as of several times, which
-// is no column; nothing if there is none.
-std::string name_of_fields(const SiteTable& table, const CommonOptions& common) {
+// Returns the fields of a netCDF file at the sites, without their values; nothing if it is a file of
+// another format, or has none.
+std::optional<FieldSet> fields_of(const SiteTable& table, const CommonOptions& common) {
+  if (!is_netcdf_file(common.source())) return std::nullopt;
   try {
     const auto [file, variable] = file_and_variable(common.source());
     std::vector<std::string> names;
     if (!variable.empty()) names = {variable};
     const FieldFile fields(file, names, table.sites.size(), {}, {}, WantedPlaces{table.positions});
-    return fields.fields().arrays.front().name;
+    return fields.fields();
   } catch (const FileError&) {
-    return {};  // a mesh may have no fields
+    return std::nullopt;  // a mesh may have no fields
   }
 }
 
+// Returns a name as a word of a command: in quotes if a shell would divide or change it.
+std::string as_word(const std::string& name) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c >= 0x80 ||
+           std::string_view("_-+.,:@%/").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!name.empty() && std::ranges::all_of(name, is_plain)) return name;
+  std::string word = "'";
+  for (const char c : name) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + '\'';
+}
+
 // Returns the lines that say what to do with the sites; none if there are no sites.
-std::string commands_for(const SiteTable& table, const CommonOptions& common) {
+std::string commands_for(const SiteTable& table, const std::optional<FieldSet>& fields,
+                         const CommonOptions& common) {
   if (table.sites.empty()) return {};
   std::string text = "commands that take it: delaunay, voronoi, regions, nearest, graph, plot\n";
   std::string values = name_of_values(table, common);
-  if (values.empty() && is_netcdf_file(common.source())) values = name_of_fields(table, common);
-  if (!values.empty()) text += "and with --value " + values + ": interpolate, contours\n";
+  if (values.empty() && fields) values = first_field_of(*fields);
+  if (!values.empty()) text += "and with --value " + as_word(values) + ": interpolate, contours\n";
   if (is_netcdf_file(common.source())) {
     text += "and if its values are on cells: regrid, remap, mesh quality\n";
   }
@@ -232,7 +250,8 @@ std::string commands_for(const SiteTable& table, const CommonOptions& common) {
 }
 
 // Returns the report for people.
-std::string text_of(const SiteTable& table, const Facts& facts, const CommonOptions& common) {
+std::string text_of(const SiteTable& table, const Facts& facts,
+                    const std::optional<FieldSet>& fields, const CommonOptions& common) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text =
       table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
@@ -243,7 +262,9 @@ std::string text_of(const SiteTable& table, const Facts& facts, const CommonOpti
   if (triangulation.model() == Model::weighted) {
     text += "hidden: " + std::to_string(triangulation.hidden().size()) + '\n';
   }
-  return text + line_of_columns(table.columns) + commands_for(table, common);
+  // The fields of netCDF are variables, those with one value at each site among them.
+  text += fields ? lines_of_fields(*fields) : line_of_columns(table.columns);
+  return text + commands_for(table, fields, common);
 }
 
 // Returns the nodes in degrees.
@@ -279,6 +300,24 @@ ExitStatus run_info_of_triangles(const CommonOptions& common) {
   return done;
 }
 
+// Says what the name of a grid means.
+ExitStatus run_info_of_grid(const CommonOptions& common) {
+  Job job(common);
+  const NamedGrid grid = grid_of(common.input);
+  const Json json = {{"cells", grid.num_cells()},
+                     {"grid", grid.shape()},
+                     {"covers_sphere", grid.covers_sphere()}};
+  std::string text = common.input + ": a grid of " + count(grid.num_cells(), "cell", "cells");
+  for (std::size_t d = 0; grid.shape().size() > 1 && d < grid.shape().size(); ++d) {
+    text += (d == 0 ? ", " : " x ") + std::to_string(grid.shape()[d]);
+  }
+  job.report(json.dump(2) + '\n',
+             text + (grid.covers_sphere() ? "\n" : ", which do not cover the sphere\n") +
+                 "commands that take it in place of a file: regrid, remap, check-weights\n"
+                 "and with --to: interpolate\n");
+  return done;
+}
+
 // What is read, for a message.
 constexpr std::string_view read_formats =
     "sites are read from .csv .tsv .xyz .txt .npy .geojson .gpkg .fgb .shp .parquet, fields and "
@@ -311,6 +350,10 @@ void require_known_ending(const CommonOptions& common) {
 // Reads the sites with all columns, triangulates them to count duplicates and hidden sites, and
 // prints the facts. No file is written. Throws FileError for a file that cannot be read.
 ExitStatus run_info(const CommonOptions& options) {
+  std::error_code ignored;
+  if (NamedGrid::is_name(options.input) && !std::filesystem::exists(options.input, ignored)) {
+    return run_info_of_grid(options);
+  }
   if (is_triangle_input(options)) return run_info_of_triangles(options);
   CommonOptions common = options;
   common.read.keep_columns = true;
@@ -328,7 +371,8 @@ ExitStatus run_info(const CommonOptions& options) {
     return done;
   }
   const Facts facts = find_facts(table, job, common.build.sphere);
-  job.report(json_of(table, facts, job.seconds()), text_of(table, facts, common));
+  const std::optional<FieldSet> fields = fields_of(table, common);
+  job.report(json_of(table, facts, fields, job.seconds()), text_of(table, facts, fields, common));
   return done;
 }
 
@@ -346,9 +390,12 @@ Command add_info_command(CLI::App& tool) {
       "the sphere, the columns, and the commands that take the file. Of triangles (.msh .14 .gr3 "
       ".ll .2dm, a folder of FESOM):\n"
       "the numbers of nodes, triangles and segments of the border, bounds and depths. Of\n"
-      "features with lines and polygons (.geojson) and of weights (.nc .npz): their numbers.\n\n"
+      "features with lines and polygons (.geojson) and of weights (.nc .npz): their numbers. Of netCDF\n"
+      "also the fields, the lengths of their dimensions, and what would be left out. Of the name of a\n"
+      "grid: its cells.\n\n"
       "Example:\n"
       "  rondel info stations.csv\n"
+      "  rondel info healpix:7\n"
       "  rondel info hgrid.gr3");
   return {parser, [options] { return run_info(*options); }};
 }
