@@ -90,12 +90,30 @@ class CoordinateSearch {
         found.push_back(pair_of(lon, lat, std::min(lon_evidence, lat_evidence)));
       }
     }
-    // Which pairs are crossed is only known when all of them are.
+    // Which pairs are crossed, or true places beside nominal axes, is only known when all of them
+    // are.
+    prefer_true_places(found);
     for (CoordinatePair& pair : found) {
       if (!is_crossed(pair, found)) pair.rank += rank_of_uncrossed;
     }
     std::ranges::stable_sort(found, std::ranges::greater(), &CoordinatePair::rank);
     return found;
+  }
+
+  // Adds a sentence for each longitude or latitude that an attribute `coordinates` names and that
+  // the file does not have: other coordinates are then read in its place.
+  void remark_missing_coordinates() const {
+    std::vector<std::string> missing;
+    for (const VariableHeader& variable : variables_) {
+      for (const std::string& word : formats::words_of(variable.text("coordinates"))) {
+        const bool is_place = formats::is_name_of_places(word, CoordinateKind::lon) ||
+                              formats::is_name_of_places(word, CoordinateKind::lat);
+        if (!is_place || find(word) != none || std::ranges::count(missing, word) != 0) continue;
+        missing.push_back(word);
+        remarks_->push_back("there is no variable '" + word +
+                            "', which the attribute coordinates of '" + variable.name + "' names");
+      }
+    }
   }
 
   // Adds a sentence for each coordinate whose bounds are missing.
@@ -135,6 +153,34 @@ class CoordinateSearch {
       });
     };
     return has(&CoordinatePair::lon) && has(&CoordinatePair::lat);
+  }
+
+  // Grids that are not along axes may have nominal axes beside their longitudes and latitudes of two
+  // dimensions, which are north of a tripolar grid's cap somewhere else. Where both say equally well
+  // what they are, and the axes have no bounds, the pair of two dimensions gets the rank of axes in
+  // their place, if it has a name that models give to places: a field may be of degrees, too.
+  void prefer_true_places(std::vector<CoordinatePair>& all) const {
+    const auto known_by = [&](const CoordinatePair& pair) {
+      return std::min(evidence_of(pair.lon, CoordinateKind::lon),
+                      evidence_of(pair.lat, CoordinateKind::lat));
+    };
+    for (CoordinatePair& axes : all) {
+      if (!axes.are_axes || (axes.lon_bounds != none && axes.lat_bounds != none)) continue;
+      const std::vector<std::string> dimensions = {variables_[axes.lat].dimensions[0],
+                                                   variables_[axes.lon].dimensions[0]};
+      bool has_rival = false;
+      for (CoordinatePair& pair : all) {
+        if (pair.are_axes || known_by(pair) < known_by(axes) ||
+            !std::ranges::is_permutation(variables_[pair.lon].dimensions, dimensions) ||
+            !formats::is_name_of_places(variables_[pair.lon].name, CoordinateKind::lon) ||
+            !formats::is_name_of_places(variables_[pair.lat].name, CoordinateKind::lat)) {
+          continue;
+        }
+        pair.rank |= rank_of_axes;
+        has_rival = true;
+      }
+      if (has_rival) axes.rank &= ~rank_of_axes;
+    }
   }
 
   // Returns the index of a variable, or `none`.
@@ -311,6 +357,7 @@ std::vector<CoordinatePair> find_coordinates(std::span<const VariableHeader> var
   const CoordinateSearch search(variables, query, remarks);
   std::vector<CoordinatePair> pairs = search.pairs();
   for (const CoordinatePair& pair : pairs) search.remark_missing_bounds(pair);
+  if (remarks != nullptr) search.remark_missing_coordinates();
   return pairs;
 }
 

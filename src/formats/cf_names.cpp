@@ -62,6 +62,12 @@ bool is_known_name(std::string_view name, CoordinateKind kind) {
   });
 }
 
+bool is_name_of_places(std::string_view name, CoordinateKind kind) {
+  const std::string_view of_mom = kind == CoordinateKind::lon ? "geolon" : "geolat";
+  return is_known_name(name, kind) || is_name_of_part(name, kind) ||
+         lower_case(name).starts_with(of_mom);
+}
+
 bool is_named_like_degrees(const VariableHeader& variable) {
   const std::string name = lower_case(variable.name);
   if (name.ends_with('_') || !degrees_per_unit(variable.text("units"))) return false;

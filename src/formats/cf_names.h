@@ -34,6 +34,9 @@ bool is_known_name(std::string_view name, CoordinateKind kind);
 // `u_lon`, `geolat_c`, `lonCell`, but not `platform_zenith_angle`. A name that ends with an underscore
 // has given way to that of a coordinate, and is none.
 bool is_named_like_degrees(const VariableHeader& variable);
+// True if models give this name to the true longitudes, or latitudes, of places: a known name, one of
+// parts of cells, or MOM's `geolon_t` ...
+bool is_name_of_places(std::string_view name, CoordinateKind kind);
 // True if MPAS or ICON give this name to longitudes, or latitudes, of vertices or edges.
 bool is_name_of_part(std::string_view name, CoordinateKind kind);
 // Returns the evidence that a variable holds longitudes, or latitudes: 0 none, 1 its name, 2 its
