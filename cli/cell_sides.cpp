@@ -55,9 +55,9 @@ CellSet cells_of_sites(const FileName& file, const CellSideOptions& options, Job
 
 CellForm form_of(const FileName& side) {
   if (NamedGrid::is_name(side.path)) return CellForm::grid;
+  require_grid_or_file(side);
   if (can_read_cells(side)) return CellForm::netcdf;
-  const std::string format = format_of(side);
-  return format == "geojson" || format == "json" ? CellForm::polygons : CellForm::sites;
+  return is_geojson(side) ? CellForm::polygons : CellForm::sites;
 }
 
 CellSet cells_of_side(const FileName& side, const CellSideOptions& options, Job& job) {

@@ -45,7 +45,13 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-EdgeTable read_edge_table(const std::string& path, std::size_t num_sites) {
+EdgeTable read_edge_table(const std::string& path, const SiteTable& sites) {
+  if (sites.num_unlocated > 0) {
+    throw FileError(path + ": it counts the rows of " + sites.name + ", of which " +
+                    count(sites.num_unlocated, "has", "have") + " no place; remove " +
+                    (sites.num_unlocated > 1 ? "these" : "this one") + " first");
+  }
+  const std::size_t num_sites = sites.sites.size();
   const std::string text = text_of(path);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw FileError(path + ": the file is empty");

@@ -19,6 +19,7 @@
 #include "report.h"
 #include "rondel/constrained.h"
 #include "rondel/error.h"
+#include "rondel/io.h"
 
 namespace rondel::cli {
 
@@ -28,8 +29,10 @@ struct EdgeTable {
   std::vector<std::string> places;  ///< of each constraint: "faults.csv:3"
 };
 
-/// Reads pairs of sites, a line each; the first line may have names. \throws FileError
-EdgeTable read_edge_table(const std::string& path, std::size_t num_sites);
+/// Reads pairs of sites, a line each; the first line may have names.
+/// \throws FileError for what is no pair of sites, and if rows of their file were left out, since
+///         numbers of rows are then not those of sites
+EdgeTable read_edge_table(const std::string& path, const SiteTable& sites);
 
 /// \throws UsageError unless the file of --constraints is .csv
 void require_edge_table(const std::string& path);

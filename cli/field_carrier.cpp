@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace rondel::cli {
@@ -97,6 +98,9 @@ std::vector<double> FieldCarrier::carry(const std::vector<double>& values) {
     job_.time(Stage::query, [&] { apply(*weights_, values, carried, 1, {}, job_.execution()); });
   } else {
     carried = interpolated(values);
+    for (std::size_t i = 0; i < targets_.side.mask.size(); ++i) {
+      if (targets_.side.mask[i] == 0) carried[i] = std::numeric_limits<double>::quiet_NaN();
+    }
   }
   if (extrapolator_ != nullptr) {
     job_.time(Stage::query, [&] {

@@ -101,7 +101,9 @@ void require_separate_files(const std::vector<NamedFile>& inputs,
 
 std::pair<std::string, std::string> split_at_colon(const std::string& text) {
   const std::size_t at = text.rfind(':');
-  if (at == std::string::npos || at < 2) return {text, {}};
+  std::error_code error;
+  const bool is_file = std::filesystem::exists(text, error);  // such as wrfout_d01_12:00:00
+  if (at == std::string::npos || at < 2 || is_file) return {text, {}};
   return {text.substr(0, at), text.substr(at + 1)};
 }
 

@@ -34,7 +34,8 @@ struct NamedFile {
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
 
-/// Returns FILE and the text behind its last colon, except for the colon of C:\.
+/// Returns FILE and the text behind its last colon, except for the colon of C:\; the whole text if
+/// there is a file of that name.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);
 
 }  // namespace rondel::cli

@@ -130,8 +130,7 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
   if (table.sites.empty()) remark(table.name, no_points);
   if (table.num_unlocated > 0 && !state_->options.quiet) {
     state_->line.clear();
-    const std::string format = format_of(file);
-    const bool is_table = format != "geojson" && format != "json";
+    const bool is_table = !is_geojson(file);
     std::fprintf(
         stderr, "rondel: %s: left out %s without a place\n", table.name.c_str(),
         count(table.num_unlocated, is_table ? "row" : "feature", is_table ? "rows" : "features")

@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -134,15 +135,67 @@ void require_option_values(std::span<const char* const> arguments) {
   }
 }
 
-// Returns the command that the arguments chose, such as "mesh scvt".
+// Returns the parser of the command that the arguments chose.
+const CLI::App& parsed_app(const CLI::App& tool) {
+  const CLI::App* app = &tool;
+  while (!app->get_subcommands().empty()) app = app->get_subcommands().front();
+  return *app;
+}
+
+// Returns its name, " mesh scvt".
 std::string name_of_parsed(const CLI::App& tool) {
   std::string name;
-  const CLI::App* app = &tool;
-  while (!app->get_subcommands().empty()) {
-    app = app->get_subcommands().front();
-    name += ' ' + app->get_name();
+  for (const CLI::App* app = &parsed_app(tool); app != &tool; app = app->get_parent()) {
+    name.insert(0, ' ' + app->get_name());
   }
   return name;
+}
+
+// Returns the least number of letters to change, insert or remove between two words.
+std::size_t distance_between(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[k - 1] ? 0 : 1);
+      diagonal = std::exchange(row[k], std::min({row[k] + 1, row[k - 1] + 1, changed}));
+    }
+  }
+  return row.back();
+}
+
+// Returns the option of a command that an unknown word may mean: one that it begins, or that differs
+// in one or two letters; an empty text if there is none, or more than one.
+std::string option_meant_by(const std::string& word, const CLI::App& app) {
+  std::vector<std::string> begun;
+  std::vector<std::string> near;
+  for (const CLI::Option* const option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      const std::string known = "--" + name;
+      if (word.size() > 3 && known.starts_with(word)) begun.push_back(known);
+      if (distance_between(word, known) <= 2) near.push_back(known);
+    }
+  }
+  if (begun.size() == 1) return begun.front();
+  return begun.empty() && near.size() == 1 ? near.front() : std::string();
+}
+
+// Returns a sentence on the first word of the arguments that begins as an option and is none of the
+// command's; an empty text if there is no such word. The parser's own message may be on what is
+// missing instead.
+std::string unknown_option(const CLI::App& tool, std::span<const char* const> arguments) {
+  const std::vector<std::string> unknown = tool.remaining(true);
+  for (const std::string_view argument : arguments) {
+    const std::string word(argument.substr(0, argument.find('=')));
+    if (!word.starts_with("--") || word == "--" || std::ranges::count(unknown, argument) == 0) {
+      continue;
+    }
+    const std::string meant = option_meant_by(word, parsed_app(tool));
+    return word + " is no option of 'rondel" + name_of_parsed(tool) + '\'' +
+           (meant.empty() ? "" : "; " + meant + " is one");
+  }
+  return {};
 }
 
 // Turns "help COMMAND" into "COMMAND --help".
@@ -170,8 +223,12 @@ int run(int argc, const char* const* argv) {
     print(tool.help());
     return done;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what() + std::string(" (see rondel") + name_of_parsed(tool) +
-                     " --help)" + file_like_an_option(argc, argv));
+    const bool is_on_words = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                             dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    const std::string unknown =
+        is_on_words ? unknown_option(tool, {argv, static_cast<std::size_t>(argc)}) : "";
+    throw UsageError((unknown.empty() ? error.what() : unknown) + " (see rondel" +
+                     name_of_parsed(tool) + " --help)" + file_like_an_option(argc, argv));
   }
   const Command* command = selected(commands);
   if (command == nullptr) throw UsageError("no command (see rondel --help)");

@@ -126,9 +126,10 @@ void require_mesh_output(const MeshOutput& output, MeshOutputKind kind,
 
 void write_mesh_report(const std::string& path, const mesh::VoronoiMesh& arrays,
                        const mesh::Quality& quality, const Execution& execution) {
-  if (path.ends_with(".svg")) {
+  const std::string format = format_of(path);
+  if (format == "svg") {
     write_file(path, mesh::quality_picture(arrays, quality, 100, execution));
-  } else if (path.ends_with(".txt")) {
+  } else if (format == "txt") {
     write_file(path, mesh::quality_text(quality));
   } else {
     write_file(path, mesh::quality_json(quality));

@@ -220,10 +220,12 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
       ->type_name("FILE");
 }
 
-bool may_have_features(const FileName& file) {
+bool is_geojson(const FileName& file) {
   const std::string format = format_of(file);
-  return format == "geojson" || format == "json" || is_unnamed_input(file);
+  return format == "geojson" || format == "json";
 }
+
+bool may_have_features(const FileName& file) { return is_geojson(file) || is_unnamed_input(file); }
 
 FileName CommonOptions::source_beside(const std::string& other) const {
   return {input, other == "-" && input != "-" ? std::string() : input_format};
@@ -400,8 +402,7 @@ void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& 
         const std::vector<FileName> files = written();
         return std::ranges::any_of(files, [&](const FileName& file) {
           const bool is_by_name = options.kind == NetcdfKind::by_name;
-          return is_by_name ? file.path.ends_with(".nc4") || file.format == "nc4"
-                            : options.kind == NetcdfKind::netcdf4;
+          return is_by_name ? format_of(file) == "nc4" : options.kind == NetcdfKind::netcdf4;
         });
       },
       "without --kind nc4 or the ending .nc4: other files are not compressed");

@@ -59,7 +59,9 @@ struct CommonOptions {
   [[nodiscard]] std::string format() const { return format_of(target()); }
 };
 
-/// True if a file is GeoJSON by its format or its ending, or standard input without a format.
+/// True if a file is GeoJSON by its format or its ending.
+bool is_geojson(const FileName& file);
+/// True for the same, and for standard input without a format.
 bool may_have_features(const FileName& file);
 
 /// Makes it a usage error to give an option that has no effect. The conditions are checked when the

@@ -66,9 +66,10 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);
-    if (center != Point{}) targets.table.positions = targets.side.points;
+    targets.table.positions = targets.side.points;
     return targets;
   }
+  require_grid_or_file(target);
   if (const auto [file, variable] = file_and_variable(target); is_netcdf_file(file)) {
     std::vector<std::string> names;
     if (!variable.empty()) names.push_back(variable);
@@ -77,6 +78,7 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
     tell_of_columns(file.path, read);
     targets.table = std::move(sites.table);
     targets.side.points = targets.table.positions;
+    targets.side.mask = std::move(sites.mask);
     if (sites.shape.size() > 1) targets.side.shape = std::move(sites.shape);
     return targets;
   }
@@ -126,6 +128,7 @@ Weights regrid_weights(Job& job, RegridMethod method, const FileName& file, cons
     if (method == RegridMethod::nearest_d2s) weights = given_to_nearest(job, grid, targets);
     if (method == RegridMethod::native) weights = in_native_cells(job, file, grid, targets);
   });
+  if (!targets.side.mask.empty()) weights = with_rows(weights, targets.side.mask);
   weights.sites_hash = point_set_hash(grid.table.sites);
   weights.targets_hash = point_set_hash(targets.table.sites);
   return weights;
@@ -139,7 +142,8 @@ Extrapolator extrapolator_to(const Targets& targets, const NetcdfSites& grid, co
   if (options.method == Extrapolation::creep) {
     neighbors = target_neighbors(points, targets.side.shape, execution);
   }
-  return {known_unit_vectors(places), std::move(points), std::move(neighbors), options, grid.mask};
+  return {known_unit_vectors(places), std::move(points), std::move(neighbors), options, grid.mask,
+          targets.side.mask};
 }
 
 }  // namespace rondel::cli

@@ -25,7 +25,7 @@ namespace rondel::cli {
 /// places; or the name of a grid, whose centers they are.
 struct Targets {
   SiteTable table;  ///< the points, and where they come from
-  WeightSide side;
+  WeightSide side;  ///< a target that is masked gets no value
 };
 /// Reads the targets of a command, as they are seen from `center`. `read` says how tables are read.
 /// \throws UsageError for an impossible grid, FileError for a file that cannot be read

@@ -141,10 +141,10 @@ bool are_columns_named(const ReadOptions& read) {
   return !(read.lon + read.x + read.radius).empty();  // the others are given together with these
 }
 
-// True for a table: by the ending of its name, and on standard input by the format.
+// True for a table: by its format, which on standard input may be unnamed.
 bool is_table(const FileName& file) {
-  if (file.path != "-") return file.path.ends_with(".csv") || file.path.ends_with(".tsv");
-  return file.format.empty() || file.format == "csv" || file.format == "tsv";
+  const std::string format = format_of(file);
+  return format == "csv" || format == "tsv" || (file.path == "-" && format.empty());
 }
 
 // The values at the sources, field by field: those of a file that is read slice by slice, or

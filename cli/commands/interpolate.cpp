@@ -104,7 +104,7 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
 // Returns the edges of --constraints, if there are any. Throws FileError.
 std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteTable& table) {
   if (options.constraints.empty()) return {};
-  return read_edge_table(options.constraints, table.sites.size());
+  return read_edge_table(options.constraints, table);
 }
 
 // Interpolates the columns that --value names, and writes them as fields of those names. The index
@@ -196,6 +196,7 @@ void interpolate_weights(Job& job, const InterpolateMethod& method, const Netcdf
   job.time(Stage::query, [&] {
     file.weights = with_places(
         targets.table, [&] { return interpolator.weights(targets.table.sites, job.execution()); });
+    if (!targets.side.mask.empty()) file.weights = with_rows(file.weights, targets.side.mask);
   });
   // A site has the area of its cell, whatever edges are given.
   const Triangulation delaunay = method.edges == nullptr

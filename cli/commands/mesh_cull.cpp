@@ -40,7 +40,7 @@ struct MeshCullOptions {
 // Throws UsageError for a map of old numbers to new ones that is not .npy; an empty path is an
 // option that was not given.
 void require_map_output(const char* option, const std::string& path) {
-  if (path.empty() || path.ends_with(".npy")) return;
+  if (path.empty() || format_of(path) == "npy") return;
   throw UsageError(std::string(option) + ": '" + path + "' is not .npy");
 }
 
@@ -69,7 +69,8 @@ bool are_regions(const FieldArray& array) {
 // number that is missing or neither 0 nor 1.
 std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
   const auto [file, name] = split_at_colon(text);
-  if (name.empty() && (file.ends_with(".csv") || file.ends_with(".tsv"))) {
+  if (const std::string format = format_of(file);
+      name.empty() && (format == "csv" || format == "tsv")) {
     throw UsageError("--mask: '" + file + "' is a table, of which " + file +
                      ":COLUMN names the column");
   }

@@ -218,7 +218,7 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   const CLI::Option* const invalid = add_invalid_option(parser, cells.invalid);
   const CLI::Option* const corners = add_corners_option(parser, cells.corners);
   const auto has_polygons = [&options] {
-    return options.target.ends_with("json") || options.source.ends_with("json");
+    return is_geojson(options.target) || is_geojson(options.source);
   };
   require_effect(options.common, edges, has_polygons, "without polygons in .geojson");
   require_effect(

@@ -88,7 +88,7 @@ Plan plan_of(const TriangulateOptions& options, Job& job) {
   if (options.constraints.empty()) return plan_of_features(options, job.execution());
   Plan plan;
   plan.table = job.read();
-  plan.edges = read_edge_table(options.constraints, plan.table.sites.size());
+  plan.edges = read_edge_table(options.constraints, plan.table);
   return plan;
 }
 

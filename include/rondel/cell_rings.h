@@ -85,7 +85,12 @@ struct LonLatAxes {
   std::vector<double> lon_deg;
   std::vector<double> lat_deg;
 
+  /// Returns all places, latitude by latitude.
   [[nodiscard]] RONDEL_API std::vector<LonLat> places() const;
+  /// Returns one of them.
+  [[nodiscard]] LonLat place(std::size_t index) const {
+    return {lon_deg[index % lon_deg.size()], lat_deg[index / lon_deg.size()]};
+  }
 };
 
 /// What to do where a file has the centers of cells in two dimensions, and no corners.

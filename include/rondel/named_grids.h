@@ -75,6 +75,9 @@ class RONDEL_API NamedGrid {
   /// True if a text has the form of a name of a grid, such as "N7", which is none.
   [[nodiscard]] static bool is_name(std::string_view text);
 
+  /// Returns the forms of names, "grid:DEG, healpix:7 ...", for messages.
+  [[nodiscard]] static std::string_view forms();
+
   /// \param sides  those of `grid:`, `F` and `healpix:`
   /// \throws InvalidInput for a text that names no grid, or one of too many cells
   explicit NamedGrid(std::string_view name, GridSides sides = GridSides::parallels);
@@ -90,7 +93,9 @@ class RONDEL_API NamedGrid {
   [[nodiscard]] GridMapping mapping() const;
   /// Returns the axes of the centers of `grid:` and `F`, else null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
-  /// Returns the center of each cell, in degrees.
+  /// Returns the center of a cell, in degrees.
+  [[nodiscard]] LonLat center(std::size_t cell) const;
+  /// Returns the center of each cell.
   [[nodiscard]] std::vector<LonLat> centers() const;
   /// Returns the cells, whose facts() have the name, the shape and the centers.
   [[nodiscard]] CellSet cells(const Execution& execution = {}) const;

@@ -128,6 +128,11 @@ RONDEL_API CellTable read_cells(const FileName& file,
 /// True if read_cells() reads files of this format; the name of a grid (`FILE.nc:NAME`) is ignored.
 RONDEL_API bool can_read_cells(const FileName& file);
 
+/// Checks a text that is the name of a grid (NamedGrid) or of a file.
+/// \throws FileError for one that is neither and looks like no file: "healpx:7", which has no ending
+///         and no folder. A missing file that looks like one is left to its reader.
+RONDEL_API void require_grid_or_file(const FileName& side);
+
 /// The sites of a netCDF file.
 struct NetcdfSites {
   SiteTable table;  ///< with positions

@@ -9,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "exact/vector.h"
@@ -197,6 +200,19 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t corners_
     }
   }
   return std::move(maker).take();
+}
+
+void require_grid_or_file(const FileName& side) {
+  const std::string& path = side.path;
+  if (side.bytes != nullptr || path.empty() || path == "-" || NamedGrid::is_name(path)) return;
+  const std::string_view before_colon = std::string_view(path).substr(0, path.find(':'));
+  std::error_code error;
+  if (before_colon.find_first_of("./\\") != std::string_view::npos ||
+      std::filesystem::exists(path, error) || std::filesystem::exists(before_colon, error)) {
+    return;
+  }
+  throw FileError(path + " is neither a file nor a grid: grids are " +
+                  std::string(NamedGrid::forms()) + ", with any numbers");
 }
 
 bool can_read_cells(const FileName& file) { return is_netcdf_file(file_and_variable(file).first); }

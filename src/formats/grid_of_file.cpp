@@ -4,13 +4,17 @@
 #include "formats/grid_of_file.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <span>
 #include <system_error>
+#include <vector>
 
+#include "formats/cf_reader.h"
+#include "formats/cf_values.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
-#include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "rondel/named_grids.h"
 
@@ -28,21 +32,112 @@ GridMapping mapping_of(std::span<const io::NetcdfAttribute> attributes) {
   return mapping;
 }
 
-// True if the file has the dimensions of the grid. A file may also have some of its points, with their
-// longitudes and latitudes.
-bool has_dimensions_of(const io::NetcdfReader& reader, const std::string& name) {
+// True if the file has the dimensions of the grid, and its places if it has any. A file may also have
+// some of the grid's points, with their longitudes and latitudes.
+bool is_on(const io::NetcdfReader& reader, const std::string& name) {
   const auto has = [&](std::uint64_t length) {
     return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
   };
   try {
     const NamedGrid grid(name);
-    return has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has);
+    if (!has(grid.num_cells()) && !std::ranges::all_of(grid.shape(), has)) return false;
+    return may_be_at(
+        reader, {grid.num_cells(), grid.axes(), [&](std::size_t i) { return grid.center(i); }});
   } catch (const InvalidInput& error) {
     throw io::BadValue(error.what());
   }
 }
 
+constexpr double max_apart_deg = 1e-4;  // of coordinates in single precision
+
+// True if axes have the same places, in the same order.
+bool are_axes_of(const io::NetcdfReader& reader, const io::VariableInFile& lon,
+                 const io::VariableInFile& lat, const LonLatAxes& axes) {
+  const std::vector<double> lon_deg = degrees_of(reader, lon, UsualUnits::of_name, {nullptr, &lat});
+  const std::vector<double> lat_deg = degrees_of(reader, lat, UsualUnits::of_name, {nullptr, &lon});
+  const auto is_same = [&](const LonLat& a, const LonLat& b) {
+    return is_same_place(a, b, max_apart_deg);
+  };
+  for (std::size_t i = 0; i < lon_deg.size(); ++i) {
+    if (!is_same({lon_deg[i], 0}, {axes.lon_deg[i], 0})) return false;
+  }
+  for (std::size_t i = 0; i < lat_deg.size(); ++i) {
+    if (!is_same({0, lat_deg[i]}, {0, axes.lat_deg[i]})) return false;
+  }
+  return true;
+}
+
+// Compares some of the places of a file with those of a grid, a few next to each other at a time.
+class PlaceSamples {
+ public:
+  PlaceSamples(const io::NetcdfReader& reader, const std::vector<VariableHeader>& headers,
+               const CoordinatePair& pair)
+      : reader_(reader), lon_(reader.variables()[pair.lon]), lat_(reader.variables()[pair.lat]) {
+    const VariableHeader* const lat[] = {&headers[pair.lat]};
+    const VariableHeader* const lon[] = {&headers[pair.lon]};
+    units_ = {degrees_per_unit(headers[pair.lon], lat), degrees_per_unit(headers[pair.lat], lon)};
+  }
+
+  [[nodiscard]] bool are_those_of(const PlacesOfGrid& grid) const {
+    constexpr std::uint64_t windows = 16;
+    constexpr std::uint64_t most = 64;  // places of a window
+    const std::uint64_t size = std::min(most, grid.num_places);
+    for (std::uint64_t k = 0; k < windows; ++k) {
+      const std::uint64_t begin = (grid.num_places - size) / (windows - 1) * k;
+      if (!are_same(grid, k + 1 == windows ? grid.num_places - size : begin, size)) return false;
+    }
+    return true;
+  }
+
+ private:
+  [[nodiscard]] bool are_same(const PlacesOfGrid& grid, std::uint64_t begin,
+                              std::uint64_t size) const {
+    const std::vector<double> lon = part_of(lon_, units_[0], begin, size);
+    const std::vector<double> lat = part_of(lat_, units_[1], begin, size);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (!is_same_place({lon[i], lat[i]}, grid.place(begin + i), max_apart_deg)) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] std::vector<double> part_of(const io::VariableInFile& variable, double unit,
+                                            std::uint64_t begin, std::uint64_t size) const {
+    std::vector<double> values(size);
+    reader_.read_numbers(variable, begin, values);
+    ValueRules(variable).apply(values);
+    for (double& value : values) value *= unit;
+    return values;
+  }
+
+  const io::NetcdfReader& reader_;
+  const io::VariableInFile& lon_;
+  const io::VariableInFile& lat_;
+  std::array<double, 2> units_{};
+};
+
 }  // namespace
+
+bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
+  const std::vector<VariableHeader> headers = headers_of(reader);
+  bool has_others = false;
+  for (const CoordinatePair& pair : find_coordinates(headers)) {
+    const io::VariableInFile& lon = reader.variables()[pair.lon];
+    const io::VariableInFile& lat = reader.variables()[pair.lat];
+    bool is_there = false;
+    if (pair.are_axes) {
+      if (grid.axes == nullptr || lon.num_values != grid.axes->lon_deg.size() ||
+          lat.num_values != grid.axes->lat_deg.size()) {
+        continue;
+      }
+      is_there = are_axes_of(reader, lon, lat, *grid.axes);
+    } else {
+      if (lon.num_values != grid.num_places || lat.num_values != grid.num_places) continue;
+      is_there = PlaceSamples(reader, headers, pair).are_those_of(grid);
+    }
+    if (is_there) return true;
+    has_others = true;
+  }
+  return !has_others;
+}
 
 // A pipe and standard input can be read once, which is left to the reader of their content.
 std::string grid_named_by_file(const FileName& file) {
@@ -55,10 +150,10 @@ std::string grid_named_by_file(const FileName& file) {
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
     std::string name = grid_named_by(mapping_of(reader.attributes()));
-    if (!name.empty() && has_dimensions_of(reader, name)) return name;
+    if (!name.empty() && is_on(reader, name)) return name;
     for (const io::VariableInFile& variable : reader.variables()) {
       name = grid_named_by(mapping_of(variable.attributes));
-      if (!name.empty() && has_dimensions_of(reader, name)) return name;
+      if (!name.empty() && is_on(reader, name)) return name;
     }
     return std::string();
   });

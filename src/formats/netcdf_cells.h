@@ -132,6 +132,9 @@ void take_mask(const io::NetcdfReader& file, std::string_view name, std::uint64_
 // none. Throws BadValue if there is not one center for each cell.
 void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
                   const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);
+// Returns a sentence on the variables of a file that are no part of its mesh and whose names are not
+// among those that were `read`; empty if there are none.
+std::string remark_on_fields(const io::NetcdfReader& file, std::span<const std::string> read);
 // Removes the rings of cells with a corner at a missing node, sets their mask to 0, and adds a
 // remark with their number. Throws BadValue for other nodes that are no places.
 void leave_out_cells_without_corners(MeshContent& mesh);

@@ -47,13 +47,20 @@ map::PolygonFeatures features_of_sites(const FileName& file, std::vector<std::st
     const auto num_masked = static_cast<std::size_t>(std::ranges::count(is_kept, false));
     if (num_masked > 0) {
       remarks.push_back("left out " + std::to_string(num_masked) + " masked " +
-                        (num_masked > 1 ? "sites" : "site"));
+                        (num_masked > 1 ? "sites" : "site") + "; features are numbered without " +
+                        (num_masked > 1 ? "them" : "it"));
     }
     table = num_masked > 0 ? sites.table.selection(is_kept) : std::move(sites.table);
   } else {
     ReadOptions with_columns;
     with_columns.keep_columns = true;
     table = read_sites(file, with_columns, execution);
+    if (table.num_unlocated > 0) {
+      remarks.push_back("left out " + std::to_string(table.num_unlocated) +
+                        (table.num_unlocated > 1 ? " rows" : " row") +
+                        " without a place; features are numbered without " +
+                        (table.num_unlocated > 1 ? "them" : "it"));
+    }
   }
   map::PolygonFeatures features;
   features.rings.resize(table.sites.size());

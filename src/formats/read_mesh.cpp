@@ -36,6 +36,39 @@
 #include "rondel/read_cells.h"
 #include "system/job.h"
 
+namespace rondel::formats {
+namespace {
+
+// Areas, lengths and measures of quality that the writers of meshes compute again.
+constexpr std::array<std::string_view, 13> measures = {
+    "areaCell",       "meshDensity", "cellQuality",  "gridSpacing",     "dcEdge",
+    "dvEdge",         "angleEdge",   "areaTriangle", "triangleQuality", "triangleAngleQuality",
+    "obtuseTriangle", "grid_area",   "elementArea"};
+
+}  // namespace
+
+std::string remark_on_fields(const io::NetcdfReader& file, std::span<const std::string> read) {
+  const std::vector<VariableHeader> headers = headers_of(file);
+  const std::vector<bool> parts = parts_of_grids(headers);
+  NameList names;
+  for (std::size_t v = 0; v < headers.size(); ++v) {
+    const VariableHeader& header = headers[v];
+    const bool is_axis = header.dimensions.size() == 1 && header.dimensions[0] == header.name;
+    // Coordinates, axes and measures are computed again, so only other numbers are lost.
+    if (parts[v] || header.shape.empty() || !header.is_number || is_axis ||
+        std::ranges::count(measures, header.name) != 0 ||
+        std::ranges::count(read, header.name) != 0 ||
+        coordinate_evidence(header, CoordinateKind::lon) > 0 ||
+        coordinate_evidence(header, CoordinateKind::lat) > 0) {
+      continue;
+    }
+    names.add(header.name);
+  }
+  return names.text().empty() ? "" : "left out, as they are no part of the mesh: " + names.text();
+}
+
+}  // namespace rondel::formats
+
 namespace rondel::mesh {
 namespace {
 
@@ -131,33 +164,6 @@ std::optional<VoronoiMesh> part_of_mesh(const CellTable& table, const Triangulat
   }
 }
 
-// Areas, lengths and measures of quality that the writers of meshes compute again.
-constexpr std::array<std::string_view, 13> measures = {
-    "areaCell",       "meshDensity", "cellQuality",  "gridSpacing",     "dcEdge",
-    "dvEdge",         "angleEdge",   "areaTriangle", "triangleQuality", "triangleAngleQuality",
-    "obtuseTriangle", "grid_area",   "elementArea"};
-
-// Returns a sentence on the variables of a file that are no part of its mesh; empty if there are
-// none.
-std::string remark_on_fields(const io::NetcdfReader& file) {
-  const std::vector<VariableHeader> headers = formats::headers_of(file);
-  const std::vector<bool> parts = parts_of_grids(headers);
-  formats::NameList names;
-  for (std::size_t v = 0; v < headers.size(); ++v) {
-    const VariableHeader& header = headers[v];
-    const bool is_axis = header.dimensions.size() == 1 && header.dimensions[0] == header.name;
-    // Coordinates, axes and measures are computed again, so only other numbers are lost.
-    if (parts[v] || header.shape.empty() || !header.is_number || is_axis ||
-        std::ranges::count(measures, header.name) != 0 ||
-        formats::coordinate_evidence(header, formats::CoordinateKind::lon) > 0 ||
-        formats::coordinate_evidence(header, formats::CoordinateKind::lat) > 0) {
-      continue;
-    }
-    names.add(header.name);
-  }
-  return names.text().empty() ? "" : "left out, as they are no part of the mesh: " + names.text();
-}
-
 // Removes the cells that the file masks, and adds a remark with the number of the others.
 void leave_out_masked(CellTable& table) {
   CellFacts& facts = table.facts;
@@ -220,7 +226,7 @@ VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Ex
     std::optional<VoronoiMesh> arrays;
     io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
-      remark = remark_on_fields(reader);
+      remark = formats::remark_on_fields(reader, {});
       if (formats::has_mpas_arrays(reader)) {
         arrays = formats::read_mpas_arrays(reader, execution);
         if (remarks != nullptr)

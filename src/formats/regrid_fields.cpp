@@ -7,8 +7,13 @@
 #include <cstddef>
 #include <utility>
 
+#include "formats/grid_of_file.h"
 #include "formats/regrid_plan.h"
 #include "formats/weight_formats.h"
+#include "io/bad_value.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
+#include "rondel/error.h"
 
 namespace rondel::formats {
 namespace {
@@ -21,6 +26,18 @@ void add_history(const std::string& line, FieldSet& fields) {
     return;
   }
   fields.attributes.emplace_back("history", line);
+}
+
+// Throws FileError if a file has as many places as a side, and others.
+void require_places_of(const FileName& in, const RegridSide& side) {
+  io::FileBytes bytes(file_and_variable(in).first, true);
+  io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    const PlacesOfGrid grid{side.num_places(), side.axes(),
+                            [&](std::size_t i) { return side.place(i); }};
+    if (may_be_at(reader, grid)) return;
+    throw io::BadValue("its longitudes and latitudes are not the places of " + side.name());
+  });
 }
 
 }  // namespace
@@ -41,11 +58,15 @@ std::vector<std::string> wanted_variables(const FileName& in,
   return names.empty() && !variable.empty() ? std::vector{variable} : names;
 }
 
-// The places are compared while the file is opened.
+// The places are compared while the file is opened; of very many only some are.
 std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
                                        const RegridSide& side) {
   std::vector<LonLat> places;
-  if (side.num_places() <= max_compared) places = side.places();
+  if (side.num_places() <= max_compared) {
+    places = side.places();
+  } else if (is_netcdf_file(file_and_variable(in).first)) {
+    require_places_of(in, side);
+  }
   return std::make_unique<FieldFile>(file_and_variable(in).first, names, side.num_places(),
                                      ReadOptions{}, side.shape(), WantedPlaces{places},
                                      FieldExtras{.has_others = true, .has_positions = false});

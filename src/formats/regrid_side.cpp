@@ -78,6 +78,7 @@ void require_places(const FileName& file) {
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
                        const Execution& execution, const std::vector<std::string>& names)
     : name_(file.path), options_(options) {
+  require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
   const std::string grid = is_name ? file.path : grid_named_by_file(file);
   if (grid.empty()) {
@@ -149,6 +150,11 @@ std::size_t RegridSide::num_places() const {
 std::vector<LonLat> RegridSide::places() const {
   if (named_) return named_->centers();
   return places_.empty() && axes_ ? axes_->places() : places_;
+}
+
+LonLat RegridSide::place(std::size_t index) const {
+  if (named_) return named_->center(index);
+  return places_.empty() && axes_ ? axes_->place(index) : places_[index];
 }
 
 const CellSet& RegridSide::cells(const Execution& execution) {

@@ -41,6 +41,7 @@ class RegridSide {
   // Returns the axes of a grid along axes, or null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
   [[nodiscard]] std::vector<LonLat> places() const;
+  [[nodiscard]] LonLat place(std::size_t index) const;
   // Returns the cells of a side that was read with cells. They are computed by the first call.
   [[nodiscard]] const CellSet& cells(const Execution& execution);
   // True if a side that was read with cells can be divided into tiles.

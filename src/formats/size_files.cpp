@@ -173,6 +173,10 @@ Spacings spacings_of(const FileName& file, const std::string& name, const Execut
   }
   SiteTable table = read_sites(file, {}, execution);
   if (name.empty()) throw FileError(table.name + ": which column is meant is not said");
+  if (table.num_unlocated > 0) {
+    throw FileError(table.name + ": " + std::to_string(table.num_unlocated) +
+                    (table.num_unlocated > 1 ? " rows have" : " row has") + " no place");
+  }
   FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
   Spacings result;
   result.places = std::move(table.sites);

@@ -184,13 +184,26 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   take_nodes(file, nodes, centers, UsualUnits::degrees, mesh);
   const io::VariableInFile& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
-  // UGRID has the faces first, unless `face_dimension` says that they are the last dimension.
-  const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
+  // UGRID has the faces first, unless `face_dimension`, or the dimension of the centers, says that
+  // they are the last dimension.
+  std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
+  if (dimension.empty() && centers.lon != nullptr && centers.lon->dimensions.size() == 1) {
+    dimension = file.dimensions()[centers.lon->dimensions[0]].name;
+  }
   const bool is_transposed = !dimension.empty() &&
                              file.dimensions()[faces.dimensions[1]].name == dimension &&
                              file.dimensions()[faces.dimensions[0]].name != dimension;
   const std::uint64_t num_cells = faces.shape[is_transposed ? 1 : 0];
   const std::uint64_t corners_per_cell = faces.shape[is_transposed ? 0 : 1];
+  constexpr std::uint64_t few = 4;     // corners of most faces
+  constexpr std::uint64_t many = 256;  // corners of hardly any
+  if (num_cells <= few && corners_per_cell > many) {
+    throw BadValue(
+        "variable " + io::in_quotes(faces.name) + " has " + std::to_string(num_cells) +
+        " faces of " + std::to_string(corners_per_cell) +
+        " corners; if its last dimension counts faces, the attribute face_dimension of " +
+        io::in_quotes(topology->name) + " must say so");
+  }
   const double first = number_or(faces, "start_index", 0);
   take_connectivity(file, {faces, num_cells, corners_per_cell, is_transposed, first, first}, {},
                     mesh);

@@ -155,13 +155,16 @@ void read_border(const io::NetcdfReader& reader, const std::string& part, MeshIn
   file.has_boundary = count > 0;
 }
 
-// Reads the depths at the nodes, if there are some.
-void read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
+// Reads the depths at the nodes, if there are some: CF's, ADCIRC's `depth_below_geoid`, or the
+// altitude of the nodes, as Delft3D FM has it. Returns the name of the variable, or an empty text.
+std::string read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
   for (const io::VariableInFile& variable : reader.variables()) {
     const std::string name = io::netcdf_text(variable.attributes, "standard_name");
     const bool is_at_nodes =
         variable.shape.size() == 1 && variable.num_values == file.mesh.positions.size();
-    if (!is_at_nodes || !name.starts_with("sea_floor_depth_below")) continue;
+    const bool is_altitude = name == "altitude";
+    const bool is_depth = name.starts_with("sea_floor_depth_below") || name == "depth_below_geoid";
+    if (!is_at_nodes || !(is_depth || is_altitude)) continue;
     const std::string units = io::netcdf_text(variable.attributes, "units");
     const bool is_metres =
         std::ranges::count(
@@ -172,8 +175,10 @@ void read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
                      io::in_quotes(units) + ", where metres are needed");
     }
     file.mesh.depths = meant_numbers(reader, variable);
-    return;
+    for (double& depth : file.mesh.depths) depth = is_altitude ? 0 - depth : depth;
+    return variable.name;
   }
+  return {};
 }
 
 }  // namespace
@@ -208,7 +213,10 @@ void read_ugrid_triangles(const io::NetcdfReader& reader, const std::string& par
     }
     file.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
   }
-  read_depths(reader, file);
+  const std::string own[] = {read_depths(reader, file), "boundary_segment", "boundary_kind",
+                             "boundary_type"};
+  const std::string remark = remark_on_fields(reader, own);
+  if (!remark.empty()) file.remarks.push_back(remark);
   read_border(reader, part, file);
 }
 

@@ -139,7 +139,8 @@ class ZonalJob {
       : options_(options),
         execution_(execution),
         source_(options.source.value_or(file_and_variable(in).first), options.cells, true,
-                execution),
+                execution,
+                options.source ? std::vector<std::string>() : wanted_variables(in, options.names)),
         target_(target, options.cells, true, execution),
         fields_(open_fields(in, wanted_variables(in, options.names), source_)) {
     report_.remarks =

@@ -235,12 +235,15 @@ bool NamedGrid::is_name(std::string_view text) {
   return std::string_view("FNOC").find(text.front()) != std::string_view::npos && is_digits(rest);
 }
 
+std::string_view NamedGrid::forms() {
+  return "grid:DEG, grid:NLONxNLAT, healpix:7, healpix:7:ring, F320, N320, O320, C384, R2B6, "
+         "hexagons:R2B6 and tripolar:DEG";
+}
+
 NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), sides_(sides) {
   const system::ArithmeticScope arithmetic;
   if (!is_name(name)) {
-    refuse(name,
-           "grids are grid:DEG, grid:NLONxNLAT, healpix:7, healpix:7:ring, F320, N320, O320, C384, "
-           "R2B6, hexagons:R2B6 and tripolar:DEG, with any numbers");
+    refuse(name, "grids are " + std::string(forms()) + ", with any numbers");
   }
   if (name.starts_with(global_kind)) {
     const GlobalGrid grid = global_grid(name.substr(global_kind.size()), name);
@@ -260,6 +263,11 @@ NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), side
 }
 
 bool NamedGrid::covers_sphere() const { return !formula_ || formula_->covers_sphere(); }
+
+LonLat NamedGrid::center(std::size_t cell) const {
+  const system::ArithmeticScope arithmetic;
+  return axes_ ? axes_->place(cell) : formula_->center(static_cast<Index>(cell));
+}
 
 std::vector<LonLat> NamedGrid::centers() const {
   const system::ArithmeticScope arithmetic;

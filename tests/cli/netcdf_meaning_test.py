@@ -44,7 +44,9 @@ def add_axes(data, lon=LON, lat=LAT, suffix="", units=("degrees_east", "degrees_
         add(data, name + suffix, (name + suffix,), values, units=unit)
 
 
-class Meaning(unittest.TestCase):
+class Files(unittest.TestCase):
+    """A folder with files of netCDF, and the tool in it."""
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -74,6 +76,8 @@ class Meaning(unittest.TestCase):
     def table(self, name):
         return (self.folder / name).read_text().splitlines()
 
+
+class Meaning(Files):
     def test_variable_chooses_its_grid(self):
         self.grid()
         data = self.new("two.nc")

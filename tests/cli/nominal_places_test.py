@@ -1,0 +1,271 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files that say two things of where their values are: the true places are read, or the tool tells.
+
+Without netCDF4-python ctest says "Skipped".
+"""
+
+import csv
+import json
+import unittest
+
+import numpy as np
+from netcdf_meaning_test import LAT, LON, Files, add, add_axes, height, netCDF4
+
+ROWS, COLUMNS = 6, 8
+
+
+def tripolar():
+    """Longitudes and latitudes of a grid whose rows bend in the north."""
+    j, i = np.mgrid[0:ROWS, 0:COLUMNS]
+    return 10.0 + 5 * i + 2.0 * j, 50.0 + 4 * j - 0.3 * (i - 3) ** 2
+
+
+class Nominal(Files):
+    def ocean(self, name, geolon="geolon", geolat="geolat", coordinates=None, has_true=True):
+        """A file as MOM writes it: nominal axes beside the true longitudes and latitudes."""
+        data = self.new(name)
+        for axis, size, unit in (("xh", COLUMNS, "degrees_east"), ("yh", ROWS, "degrees_north")):
+            data.createDimension(axis, size)
+            values = 200.0 + 5 * np.arange(size) if axis == "xh" else 30.0 + np.arange(size)
+            add(data, axis, (axis,), values, units=unit, long_name="nominal")
+        lon, lat = tripolar()
+        if has_true:
+            add(data, geolon, ("yh", "xh"), lon, units="degrees_east")
+            add(data, geolat, ("yh", "xh"), lat, units="degrees_north")
+        texts = {} if coordinates is None else {"coordinates": coordinates}
+        add(data, "depth", ("yh", "xh"), height(lon, lat), **texts)
+        data.close()
+
+    def test_true_places_come_before_nominal_axes(self):
+        for names in (("geolon", "geolat"), ("geolon_t", "geolat_t"), ("TLONG", "TLAT")):
+            self.ocean("o.nc", *names)
+            self.run_tool("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
+            lon, lat = tripolar()
+            with netCDF4.Dataset(self.folder / "v.nc") as out:
+                self.assertTrue(np.allclose(out["lon"][:], lon))
+                self.assertTrue(np.allclose(out["depth"][:], height(lon, lat)))
+            said = self.run_tool("remap", "o.nc", "grid:10", "-o", "w.nc", status=1)
+            self.assertIn("have no bounds, so no cells, and the axes", said)
+            self.run_tool("remap", "o.nc", "grid:10", "-o", "w.nc", "--corners", "made")
+            with netCDF4.Dataset(self.folder / "w.nc") as weights:
+                self.assertLess(float(weights["yc_a"][:].max()), 71)
+                self.assertGreater(float(weights["yc_a"][:].max()), 69)
+
+    def test_fields_of_degrees_are_no_places(self):
+        self.ocean("o.nc", "lon_of_origin", "lat_of_origin")
+        self.run_tool("interpolate", "o.nc:depth", "--method", "nearest", "--to", "o.nc:depth",
+                      "-o", "v.nc")
+        with netCDF4.Dataset(self.folder / "v.nc") as out:
+            self.assertEqual(out["lon"].shape, (COLUMNS,))
+            self.assertEqual(float(out["lon"][0]), 200)
+
+    def test_coordinates_that_are_not_there_are_told(self):
+        self.ocean("o.nc", coordinates="geolon_t geolat_t", has_true=False)
+        said = self.run_tool("regrid", "o.nc", "grid:10", "-o", "v.nc")
+        for name in ("geolon_t", "geolat_t"):
+            self.assertIn(
+                f"there is no variable '{name}', which the attribute coordinates of 'depth' names",
+                said,
+            )
+
+
+class OtherOrders(Files):
+    def test_grids_that_files_name_are_compared_with_their_places(self):
+        data = self.new("v.nc")
+        add_axes(data)
+        add(data, "v", ("lat", "lon"), height(LON[None, :], LAT[:, None]))
+        data.close()
+        for grid in ("F8", "healpix:2", "O8"):
+            self.run_tool("regrid", "v.nc", grid, "--method", "linear", "-o", "on.nc", "--quiet")
+            self.run_tool("remap", "on.nc", "grid:30", "-o", "right.nc")
+            with netCDF4.Dataset(self.folder / "on.nc") as on, netCDF4.Dataset(
+                self.folder / "turned.nc", "w", format="NETCDF3_64BIT_OFFSET"
+            ) as turned:
+                turned.setncatts({name: on.getncattr(name) for name in on.ncattrs()})
+                for name, dimension in on.dimensions.items():
+                    turned.createDimension(name, len(dimension))
+                first = on["v"].dimensions[0]
+                for name, item in on.variables.items():
+                    values = np.asarray(item[...])
+                    if item.dimensions and item.dimensions[0] == first:
+                        values = values[::-1]
+                    texts = {key: item.getncattr(key) for key in item.ncattrs()}
+                    fill = texts.pop("_FillValue", None)
+                    add(turned, name, item.dimensions, values, fill, **texts)
+            turned_is_grid = grid.startswith("F")
+            said = self.run_tool(
+                "remap", "turned.nc", "grid:30", "-o", "w.nc", status=0 if turned_is_grid else 1
+            )
+            if not turned_is_grid:
+                self.assertIn("no bounds", said)
+                continue
+            with netCDF4.Dataset(self.folder / "right.nc") as right, netCDF4.Dataset(
+                self.folder / "w.nc"
+            ) as weights:
+                south = weights["yc_a"][0]
+                self.assertAlmostEqual(float(south), -float(right["yc_a"][0]), 6)
+
+    def test_rows_without_a_place_are_told(self):
+        (self.folder / "s.csv").write_text("name,lon,lat\na,1,1\nb,,\nc,10,10\n")
+        self.run_tool("generate", "uniform", "-n", "5", "-o", "u.csv")
+        for command in (
+            ("overlay", "s.csv", "s.csv", "-o", "o.geojson"),
+            ("relate", "s.csv", "s.csv", "-o", "o.csv"),
+            ("buffer", "s.csv", "--distance", "5", "-o", "o.geojson"),
+        ):
+            said = self.run_tool(*command)
+            self.assertIn("left out 1 row without a place; features are numbered without it", said)
+        (self.folder / "e.csv").write_text("0,1\n")
+        said = self.run_tool("triangulate", "s.csv", "--constraints", "e.csv", "-o", "o.npy",
+                             status=1)
+        self.assertIn("e.csv: it counts the rows of s.csv, of which 1 has no place", said)
+        said = self.run_tool("mesh", "scvt", "-n", "20", "--fixed", "s.csv", "-o", "o.nc", status=1)
+        self.assertIn("s.csv: 1 row has no place", said)
+
+    def test_endings_in_capitals_are_endings(self):
+        (self.folder / "S.CSV").write_text("lon,lat,t\n1,1,5\n10,10,6\n-30,3,7\n0,60,8\n")
+        (self.folder / "t.csv").write_text("lon,lat\n2,2\n")
+        self.run_tool("interpolate", "S.CSV", "--to", "t.csv", "--weights", "w.nc")
+        (self.folder / "OTHER.CSV").write_text("lon,lat,t\n10,10,6\n1,1,5\n-30,3,7\n0,60,8\n")
+        self.run_tool("apply", "w.nc", "S.CSV", "--value", "t", "-o", "o.csv")
+        said = self.run_tool("apply", "w.nc", "OTHER.CSV", "--value", "t", "-o", "o.csv", status=1)
+        self.assertIn("OTHER.CSV", said)
+        box = {
+            "type": "Feature",
+            "properties": {},
+            "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]},
+        }
+        (self.folder / "B.GEOJSON").write_text(json.dumps(box))
+        self.assertIn("1 feature", self.run_tool("info", "B.GEOJSON"))
+        self.grid()
+        self.run_tool("regrid", "grid.nc", "B.GEOJSON", "--edges", "geodesic", "-o", "o.csv")
+
+    def test_masked_targets_get_no_value(self):
+        self.grid()
+        data = self.new("mask.nc")
+        data.createDimension("grid_size", 4)
+        data.createDimension("grid_corners", 4)
+        for name, values, sides in (
+            ("lon", [0.0, 10, 20, 30], [-1, 1, 1, -1]),
+            ("lat", [5.0, 6, 7, 8], [-1, -1, 1, 1]),
+        ):
+            add(data, f"grid_center_{name}", ("grid_size",), values, units="degrees")
+            add(data, f"grid_corner_{name}", ("grid_size", "grid_corners"),
+                np.add.outer(values, sides), units="degrees")
+        add(data, "grid_imask", ("grid_size",), np.array([1, 0, 1, 0], np.int32))
+        data.close()
+        for options in ((), ("--extrapolate", "nearest")):
+            self.run_tool("interpolate", "grid.nc", "--to", "mask.nc", "--weights", "w.nc",
+                          "-o", "o.csv", *options)
+            with open(self.folder / "o.csv", newline="") as file:
+                values = [row["v"] for row in csv.DictReader(file)]
+            self.assertEqual([value == "" for value in values], [False, True, False, True])
+            with netCDF4.Dataset(self.folder / "w.nc") as weights:
+                self.assertEqual(sorted(set(weights["row"][:].tolist())), [1, 3])
+                self.assertEqual(weights["mask_b"][:].tolist(), [1, 0, 1, 0])
+
+
+class MeshesOfOceans(Files):
+    def mesh(self, name, nodes=None, **topology):
+        """Two triangles of UGRID; `nodes` are the numbers of corners, face by face."""
+        data = self.new(name)
+        data.createDimension("node", 4)
+        add(data, "lon", ("node",), [0.0, 10, 10, 0], units="degrees_east")
+        add(data, "lat", ("node",), [0.0, 0, 10, 10], units="degrees_north")
+        data.createDimension("nele", 2)
+        data.createDimension("three", 3)
+        corners = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+        if nodes == "transposed":
+            add(data, "nv", ("three", "nele"), corners.T)
+        else:
+            add(data, "nv", ("nele", "three"), corners)
+        variable = data.createVariable("mesh", "i4", ())
+        variable.setncatts(
+            {
+                "cf_role": "mesh_topology",
+                "topology_dimension": 2,
+                "node_coordinates": "lon lat",
+                "face_node_connectivity": "nv",
+                **topology,
+            }
+        )
+        return data
+
+    def depths_of(self, name):
+        self.run_tool("mesh", "convert", name, "-o", "fort.14")
+        rows = (self.folder / "fort.14").read_text().split("\n")[2:6]
+        return [float(row.split()[3]) for row in rows]
+
+    def test_depths_of_adcirc_and_delft3d(self):
+        data = self.mesh("a.nc")
+        add(data, "depth", ("node",), [1.0, 2, 3, 4], standard_name="depth_below_geoid", units="m")
+        data.close()
+        self.assertEqual(self.depths_of("a.nc"), [1, 2, 3, 4])
+        data = self.mesh("d.nc")
+        add(data, "z", ("node",), [-1.0, -2, 3, 4], standard_name="altitude", units="m")
+        data.close()
+        self.assertEqual(self.depths_of("d.nc"), [1, 2, -3, -4])
+
+    def test_variables_that_are_left_out_are_told(self):
+        data = self.mesh("a.nc")
+        add(data, "depth", ("node",), [1.0, 2, 3, 4], units="m")
+        data.close()
+        said = self.run_tool("mesh", "convert", "a.nc", "-o", "fort.14")
+        self.assertIn("left out, as they are no part of the mesh: depth", said)
+
+    def test_faces_that_are_the_last_dimension(self):
+        data = self.mesh("t.nc", "transposed", face_coordinates="lonc latc")
+        add(data, "lonc", ("nele",), [20 / 3, 10 / 3], units="degrees_east")
+        add(data, "latc", ("nele",), [10 / 3, 20 / 3], units="degrees_north")
+        data.close()
+        self.run_tool("remap", "t.nc", "grid:10", "-o", "w.nc")
+        with netCDF4.Dataset(self.folder / "w.nc") as weights:
+            self.assertEqual(len(weights.dimensions["n_a"]), 2)
+        many = 400
+        data = self.new("many.nc")
+        data.createDimension("node", many)
+        angles = np.linspace(0, 2 * np.pi, many, endpoint=False)
+        add(data, "lon", ("node",), 10 * np.cos(angles), units="degrees_east")
+        add(data, "lat", ("node",), 10 * np.sin(angles), units="degrees_north")
+        data.createDimension("nele", many)
+        data.createDimension("three", 3)
+        add(data, "nv", ("three", "nele"), np.tile(np.arange(many, dtype=np.int32), (3, 1)))
+        variable = data.createVariable("mesh", "i4", ())
+        variable.setncatts(
+            {"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "lon lat",
+             "face_node_connectivity": "nv"}
+        )
+        data.close()
+        said = self.run_tool("remap", "many.nc", "grid:10", "-o", "w.nc", status=1)
+        self.assertIn("the attribute face_dimension of \"mesh\" must say so", said)
+
+
+class Statistics(Files):
+    def test_variables_of_the_second_grid(self):
+        data = self.new("two.nc")
+        add_axes(data)
+        add_axes(data, LON[:4], LAT[:3], "_u")
+        for name in ("lon_u", "lat_u"):
+            self.assertIn(name, data.variables)
+        add(data, "t", ("lat", "lon"), np.ones((len(LAT), len(LON))))
+        add(data, "u", ("lat_u", "lon_u"), 2 * np.ones((3, 4)))
+        data.close()
+        box = {
+            "type": "Feature",
+            "properties": {},
+            "geometry": {
+                "type": "Polygon",
+                "coordinates": [[[-165, -70], [-130, -70], [-130, -50], [-165, -50], [-165, -70]]],
+            },
+        }
+        (self.folder / "b.geojson").write_text(json.dumps(box))
+        self.run_tool("regrid", "two.nc:u", "b.geojson", "--statistics", "mean", "-o", "o.csv")
+        with open(self.folder / "o.csv", newline="") as file:
+            row = next(csv.DictReader(file))
+        self.assertAlmostEqual(float(row["u_mean"]), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
