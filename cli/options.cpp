@@ -375,8 +375,8 @@ void add_netcdf_options(CLI::App& parser, CommonOptions& common, NetcdfOptions& 
   kinds.erase("by-name");
   const CLI::Option* const kind = add_word<NetcdfKind>(
       parser, "--kind", options.kind, kinds,
-      "The format of netCDF: nc4 (netCDF-4, compressed; of names that end in .nc4), cdf5\n"
-      "or cdf2 (64-bit offset; less than 4 GiB a variable); default: what fits");
+      "The kind of netCDF: nc4 (netCDF-4, compressed), cdf5, or cdf2 (64-bit offset; less than\n"
+      "4 GiB a variable); default: nc4 for names that end in .nc4, or a classic kind that fits");
   const CLI::Option* const deflate =
       parser
           .add_option("--deflate", options.deflate,

@@ -440,7 +440,7 @@ constexpr const char* end_of_help =
     "have no value. With nearest_d2s (ESMF's nearest destination to source) a target has the sum\n"
     "of what it is given.\n"
     "Grids go from longitude -180 eastward and from the south pole northward; centers have the\n"
-    "digits of an exact division, rounded once. DEG divides 180.\n\n"
+    "digits of an exact division, rounded once. 180 is a multiple of DEG.\n\n"
     "Examples:\n"
     "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
     "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"

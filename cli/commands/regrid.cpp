@@ -96,10 +96,10 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
             options.regrid.method = named_values<FieldMethod>().at(text);
           },
           "conservative (default): means over cells; conservative-2nd: with gradients;\n"
-          "largest-share: the most frequent value (default for fields with flag_values or\n"
-          "flag_meanings, of which conservative, if it is named, makes means); nearest, linear,\n"
-          "laplace, sibson, hermite, cubic: between the centers; bilinear: on a grid along axes;\n"
-          "native: in the cells of the mesh itself")
+          "largest-share: the value with the largest share of the area (default for fields with\n"
+          "flag_values or flag_meanings, of which conservative, if it is named, makes means);\n"
+          "nearest, linear, laplace, sibson, hermite, cubic: between the centers; bilinear: on a\n"
+          "grid along axes; native: in the cells of the mesh itself")
       ->check(one_of(keys_of(named_values<FieldMethod>())))
       ->type_name("WORD");
   const auto is_of_cells = [&options] {
