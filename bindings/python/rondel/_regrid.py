@@ -72,12 +72,13 @@ def regrid(
     target : str, Dataset, DataArray, dict, tuple or CellSet
         The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it.
     method : str, optional
-        'conservative' (default) and 'conservative_2nd': means over cells; 'nearest', 'linear',
-        'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers; 'native': in
-        the cells of the mesh of `data` itself, as a `Regridder` does it. Hyphens, as of the
-        command, are underscores. With
-        conservative methods, arrays that have the attribute `flag_values` or `flag_meanings` get
-        the value that the largest part of a target has, as 'largest_share' asks for.
+        'conservative' (default) and 'conservative_2nd': means over cells, divided by the covered
+        area of a target, as those of 'conservative_normed' and 'conservative_2nd_normed' of a
+        `Regridder`; 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear':
+        between the centers; 'native': in the cells of the mesh of `data` itself, as a `Regridder`
+        does it. Hyphens, as of the command, are underscores. With conservative methods, arrays
+        that have the attribute `flag_values` or `flag_meanings` get the value that the largest part
+        of a target has, as 'largest_share' asks for.
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
     max_missing : float, optional

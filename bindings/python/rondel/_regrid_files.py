@@ -115,12 +115,12 @@ def regrid_file(
     source : path-like, optional
         Where the fields are: the name of a grid, or a file with cells; by default `path`.
     method : str, optional
-        'conservative', 'conservative_2nd' (with gradients), 'largest_share' (the most frequent
-        value), 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic', 'bilinear' on a grid
-        along axes, or 'native' in the cells of the mesh of the fields, at its nodes or its faces
-        (`native_weights`). Hyphens, as of the command, are underscores. By default fields with the
-        attribute `flag_values` or `flag_meanings` get 'largest_share', and all others
-        'conservative'.
+        'conservative', 'conservative_2nd' (with gradients), 'largest_share' (the value with
+        the largest share of the area), 'nearest', 'linear', 'laplace', 'sibson', 'hermite',
+        'cubic', 'bilinear' on a grid along axes, or 'native' in the cells of the mesh of the
+        fields, at its nodes or its faces (`native_weights`). Hyphens, as of the command, are
+        underscores. By default fields with the attribute `flag_values` or `flag_meanings` get
+        'largest_share', and all others 'conservative'.
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.

@@ -76,9 +76,10 @@ class Regridder(Described):
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; 'conservative_2nd_normed', whose weights are divided by the
-        covered part of a target, as those of 'conservative_normed' are; or 'linear', 'laplace',
-        'sibson', 'hermite' or 'cubic' as in `SphericalDelaunay.weights`. Unless the source has
-        axes, 'bilinear' means 'linear'. With 'native' values are interpolated in the cells of the
+        covered part of a target, as those of 'conservative_normed' are (`rondel.regrid` calls
+        these two 'conservative_2nd' and 'conservative'); or 'linear', 'laplace', 'sibson',
+        'hermite' or 'cubic' as in `SphericalDelaunay.weights`. Unless the source has axes,
+        'bilinear' means 'linear'. With 'native' values are interpolated in the cells of the
         mesh of `ds_in` (`native_weights`): a Dataset with a mesh of UGRID, MPAS, ICON, ESMF or
         Exodus, whose nodes or faces `lon` and
         `lat` are, or a `CellSet`, with values at its cells.
