@@ -66,7 +66,7 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);
-    targets.table.positions = targets.side.points;
+    if (center != Point{}) targets.table.positions = targets.side.points;
     return targets;
   }
   require_grid_or_file(target);

@@ -198,7 +198,7 @@ struct ValueAttribute {
   std::string type;  ///< NumPy's name of the type, "f4", "i2" ...; empty for a text
   std::string text;
   std::vector<double> numbers;
-  /// The same of the types "i8" and "u8", exactly; those of "u8" as bits. May be empty.
+  /// Numbers of the types "i8" and "u8" exactly, those of "u8" as bits. May be empty.
   std::vector<std::int64_t> integers = {};
 };
 

@@ -224,7 +224,7 @@ class Meaning(Files):
         self.assertIn("u (lon_u and lat)", self.run_tool("apply", "w.nc", "c.nc", "-o", "o.csv"))
         self.assertEqual(self.table("o.csv")[0], "lon,lat,t,ts_0,ts_1")
         self.run_tool("apply", "w.nc", "c.nc:u", "-o", "n.csv", status=1)
-        self.assertIn("columns: t (number)", self.run_tool("info", "c.nc"))
+        self.assertIn("fields: t, ts (time 2)", self.run_tool("info", "c.nc"))
         self.assertFalse(list(self.folder.glob("n.*")))
 
     def test_columns_are_one_of_several_fields(self):

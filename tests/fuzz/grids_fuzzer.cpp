@@ -65,7 +65,10 @@ std::optional<NamedGrid> grid_of(const std::string& name, GridSides sides) {
     require(NamedGrid::is_name(name), "a grid has a name of their form");
     if (grid.num_cells() > 3000) return std::nullopt;
     return grid;
-  } catch (const InvalidInput&) {
+  } catch (const InvalidInput& error) {
+    const bool is_listed =
+        std::string_view(error.what()).find(NamedGrid::forms()) != std::string_view::npos;
+    require(is_listed != NamedGrid::is_name(name), "what has another form is told all forms");
     return std::nullopt;
   }
 }
@@ -91,6 +94,10 @@ void test_grid(const NamedGrid& grid, const CellSet& cells) {
   require(
       cells.facts().given_centers() == grid.centers() && grid.centers().size() == grid.num_cells(),
       "a cell has a center");
+  const std::vector<LonLat> centers = grid.centers();
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    require(grid.center(i) == centers[i], "a center is the same alone");
+  }
   std::uint64_t product = 1;
   for (const std::uint64_t length : grid.shape()) product *= length;
   require(product == grid.num_cells(), "the shape has all cells");

@@ -225,7 +225,7 @@ TEST(unpacked_numbers, integers_of_64_bits_are_compared_exactly) {
     try {
       const double found = unpack_integers({&bits, 1}, oracle.type, oracle.attributes).front();
       EXPECT_EQ(std::isnan(found), is_missing) << bits << ' ' << round;
-      if (!is_missing) EXPECT_EQ(found, rounded) << bits;
+      EXPECT_EQ(is_missing ? rounded : found, rounded) << bits;
     } catch (const InvalidInput& error) {
       ++num_refused;
       EXPECT_FALSE(is_missing) << bits << ' ' << round << error.what();

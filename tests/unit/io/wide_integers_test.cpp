@@ -91,7 +91,12 @@ std::pair<std::vector<double>, std::string> doubles(
     const std::vector<std::int64_t>& integers, bool may_round = false) {
   std::vector<double> out(integers.size());
   try {
-    io::to_doubles({"ids", type, {}, attributes}, integers, out, may_round);
+    const io::NetcdfVariable variable{"ids", type, {}, attributes};
+    if (may_round) {
+      (void)io::round_to_doubles(variable, integers, out);
+    } else {
+      io::to_doubles(variable, integers, out);
+    }
   } catch (const io::BadValue& error) {
     return {{}, error.what()};
   }
