@@ -130,7 +130,7 @@ def _marked(values: Any, stored_kind: str, known: dict[str, Any], name: str) -> 
     try:
         return _core.unpack_integers(bits, kind, _attributes_of(own)).reshape(values.shape)
     except InvalidInput as error:
-        at = int(np.unravel_index(error.index, values.shape)[-1]) if values.ndim else 0
+        at = int(np.unravel_index(error.index or 0, values.shape)[-1]) if values.ndim else 0
         raise InvalidInput(f"{name} {error}", at) from None
 
 
