@@ -153,7 +153,7 @@ def operands(
     made = [operand_of(name, polygons, edges) for name, polygons in given.items()]
     bodies = [operand for operand in made if getattr(operand.source, "crs", None) is not None]
     for other in bodies[1:]:
-        if other.source.crs != bodies[0].source.crs:
+        if not other.source.crs.equals(bodies[0].source.crs, ignore_axis_order=True):
             raise ValueError(
                 f"{bodies[0].name} and {other.name} are on different bodies, "
                 f"{bodies[0].source.crs.name!r} and {other.source.crs.name!r}"
@@ -199,6 +199,8 @@ def operand_of(name: str, given: Any, edges: Edges) -> Operand:
         raise ValueError(f"{name}: {error}") from None
     if source is not None:
         source = in_degrees(source, edges)
+        if source.crs is not None and source.crs.equals(4326, ignore_axis_order=True):
+            source = source.set_crs(4326, allow_override=True)  # has other names, as OGC:CRS84
         flat: Any = np.asarray(source.geometry, object)
         return Operand(name, flat.shape, flat, source=source, encoding=encoding)
     if is_box(given):

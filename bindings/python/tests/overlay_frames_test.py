@@ -149,6 +149,26 @@ def test_coordinates_become_degrees():
         rondel.union(first.geometry, moon)
 
 
+def test_a_body_may_have_several_names():
+    first, second = frames()
+    expected = rondel.overlay(first, second)
+    same = ["OGC:CRS84", "+proj=longlat +datum=WGS84", first.crs.to_wkt("WKT1_ESRI")]
+    for name in same:
+        renamed = first.set_crs(name, allow_override=True)
+        assert renamed.crs != first.crs
+        found = rondel.overlay(renamed, second)
+        assert found.crs == "EPSG:4326"
+        assert found.geom_equals(expected).all()
+        assert rondel.overlay(second, renamed).crs == "EPSG:4326"
+        assert rondel.make_valid(renamed).crs == "EPSG:4326"
+        assert renamed.crs != first.crs  # the argument stays what it is
+    moon = geopandas.GeoSeries(BOXES, crs="IAU_2015:30100")
+    other = moon.set_crs("+proj=longlat +R=1737400", allow_override=True)
+    assert rondel.union(moon, other).crs == moon.crs
+    with pytest.raises(ValueError, match="different bodies"):
+        rondel.union(moon, moon.set_crs("IAU_2015:49900", allow_override=True))
+
+
 def test_polygons_of_projections_may_cross_the_date_line():
     fiji = geopandas.GeoSeries([shapely.box(2e6, -2e6, 4e6, -1e6)], crs=3832)
     found = rondel.intersection(fiji, shapely.box(170, -30, 190, 0))
