@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Hashable, Iterable, Mapping
 from typing import Any, cast, get_args
 
 from ._blocks import OutputChunks
@@ -24,20 +24,20 @@ _OF_REGRIDDER = {
 }
 
 
-def _without_mask(grid: Any, what: str) -> Any:
+def without_mask(grid: Any, what: str) -> Any:
     """The same places without the variable that a `Regridder` would take for a mask."""
-    if isinstance(grid, dict):
-        known = grid
-    else:
-        known = getattr(grid, "coords" if hasattr(grid, "name") else "variables", {})
-    if "mask" not in known:
+    import xarray
+
+    is_labeled = isinstance(grid, (xarray.Dataset, xarray.DataArray))
+    known = grid.coords if isinstance(grid, xarray.DataArray) else grid
+    if not (is_labeled or isinstance(grid, Mapping)) or "mask" not in known:
         return grid
     warn_caller(
         f"the variable 'mask' of the {what} masks nothing here; rondel.Regridder takes it for one"
     )
-    if isinstance(grid, dict):
-        return {name: values for name, values in grid.items() if name != "mask"}
-    return grid.drop_vars("mask")
+    if is_labeled:
+        return grid.drop_vars("mask")
+    return {name: values for name, values in grid.items() if name != "mask"}
 
 
 def regrid(
@@ -132,8 +132,8 @@ def regrid(
         raise ValueError(f"method must be one of {names}, not {method!r}")
     is_of_cells = method in ("conservative", "conservative_2nd")
     regridder = Regridder(
-        _without_mask(data, "data"),
-        _without_mask(target, "target"),
+        without_mask(data, "data"),
+        without_mask(target, "target"),
         cast("RegridMethod", _OF_REGRIDDER.get(method, method)),
         lon=lon,
         lat=lat,

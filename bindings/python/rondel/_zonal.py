@@ -16,6 +16,7 @@ from ._arrays import as_threads
 from ._cell_set import CellSet
 from ._cells import polygons
 from ._geometries import Edges, Invalid
+from ._regrid import without_mask
 from ._remap import CellOverlap
 from ._types import Progress
 
@@ -48,7 +49,8 @@ def zonal_statistics(
     data : Dataset or DataArray
         Fields with their longitudes and latitudes, and any other dimensions such as time. Cells are
         those of the coordinates' bounds or, along axes, half way between the centers, as for
-        `Regridder`.
+        `Regridder`. A variable `mask` is a field as others and masks nothing, as in `regrid`; a
+        warning says so.
     zones : GeoDataFrame, GeoSeries, sequence, mapping, path-like, str or CellSet
         The polygons, as `rondel.polygons` takes them; the name of a grid; or cells.
     statistics : str or iterable of str, optional
@@ -123,7 +125,7 @@ def zonal_statistics(
 
     listed = statistics if isinstance(statistics, str) else ",".join(statistics)
     names = _core.names_of_statistics(listed)
-    source = Places(data, lon, lat, are_cells=True)
+    source = Places(without_mask(data, "data"), lon, lat, are_cells=True)
     if isinstance(zones, str) and _core.is_grid_name(zones):
         zones = CellSet.named(zones, threads=threads)
     is_set = isinstance(zones, CellSet)
@@ -172,7 +174,9 @@ def _in_doubles(data: Any) -> Any:
 
 
 def _is_lazy(data: Any) -> bool:
-    arrays = data.data_vars.values() if hasattr(data, "data_vars") else [data]
+    import xarray
+
+    arrays = data.data_vars.values() if isinstance(data, xarray.Dataset) else [data]
     return any(array.chunks is not None for array in arrays)
 
 

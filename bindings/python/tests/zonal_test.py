@@ -151,6 +151,18 @@ def test_other_variables_are_left_out_and_numbers_of_any_type_are_taken(data):
     assert (table.dtypes == np.float64).all()
 
 
+def test_a_mask_is_a_field_here(data):
+    dataset = xarray.Dataset({"t": data[0], "mask": data[0] * 0})
+    wanted = rondel.zonal_statistics(dataset[["t"]], "grid:90", "mean,count")
+    with pytest.warns(UserWarning, match="'mask' of the data masks nothing here"):
+        table = rondel.zonal_statistics(dataset, "grid:90", "mean,count")
+    assert list(table.columns) == ["t_mean", "t_count", "mask_mean", "mask_count"]
+    np.testing.assert_array_equal(table[["t_mean", "t_count"]], wanted)
+    with pytest.warns(UserWarning, match="mask"):
+        table = rondel.zonal_statistics(dataset.set_coords("mask").t, "grid:90", "mean,count")
+    np.testing.assert_array_equal(table, wanted)
+
+
 def test_arrays_of_dask_give_the_same(data):
     pytest.importorskip("dask")
     whole = rondel.zonal_statistics(data, "grid:90", "mean,max")
