@@ -31,7 +31,7 @@ HINT_OF_DEGREES = "rondel.unit_vectors(lon, lat) makes them of longitudes and la
 def as_floats(values: ArrayLike, name: str) -> FloatArray:
     """C-contiguous float64, the same memory if it is that already."""
     require_unmasked(values, name)
-    if hasattr(values, "geom_type"):
+    if hasattr(type(values), "geom_type"):
         hint = "; points have x (longitude) and y (latitude)"
         raise TypeError(f"{name} must be real numbers, not geometries{hint}")
     array = np.asarray(values)

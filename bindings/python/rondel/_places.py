@@ -76,7 +76,7 @@ class Places:
                 data = _paired(*data)
             else:
                 data = _dataset({"lon": data[0], "lat": data[1]}, are_points)
-        elif hasattr(data, "columns") and hasattr(data, "to_numpy"):
+        elif hasattr(type(data), "columns") and hasattr(data, "to_numpy"):
             data = _of_table(data)
         elif not isinstance(data, (xarray.Dataset, xarray.DataArray)):
             raise TypeError(

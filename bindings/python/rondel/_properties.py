@@ -55,7 +55,7 @@ def checked_properties(
 def _is_column(values: Any) -> bool:
     """Whether it has one value after another: no single value, set, mapping or table."""
     is_single = isinstance(values, (str, bytes)) or getattr(values, "ndim", 1) == 0
-    is_other = isinstance(values, (Mapping, Set)) or hasattr(values, "columns")
+    is_other = isinstance(values, (Mapping, Set)) or hasattr(type(values), "columns")
     return hasattr(values, "__len__") and not (is_single or is_other)
 
 

@@ -129,6 +129,27 @@ def test_a_mask_is_a_field_here(winds, tmp_path):
     assert np.isnan(rondel.Regridder(data, "grid:30", "nearest_s2d")(winds).u.values).sum() == 0
 
 
+def test_attributes_and_variables_do_not_change_what_data_are(winds):
+    named = winds.assign_attrs(name="a model").assign(mask=winds.t[0] * 0)
+    with pytest.warns(UserWarning, match="'mask' of the data masks nothing here"):
+        found = rondel.regrid(named, "grid:30")
+    assert np.isfinite(found.t.values).all()
+    with pytest.warns(UserWarning, match="'mask' of the target masks nothing here"):
+        found = rondel.regrid(winds[["t"]], named)
+    assert np.isfinite(found.t.values).all()
+    array = winds.t[0].assign_attrs(columns="a word", data_vars="another", geom_type="a third")
+    wanted = rondel.regrid(winds.t[0], "grid:30")
+    np.testing.assert_array_equal(rondel.regrid(array, "grid:30"), wanted)
+    np.testing.assert_array_equal(rondel.regrid(winds.t[0], array), winds.t[0])
+    assert len(rondel.zonal_statistics(array, "grid:90")) == 8
+    lon = array.lon.assign_attrs(geom_type="a word")
+    assert rondel.unit_vectors(lon, 0.0).shape == (36, 3)
+    properties = {"note": xarray.DataArray([1, 2, 3, 4], attrs={"columns": "a word"})}
+    lon, lat = [0, 90, 180, -90], [0, 0, 60, -60]
+    frame = rondel.SphericalVoronoi.from_lonlat(lon, lat).to_geojson(properties=properties)
+    assert [feature["properties"]["note"] for feature in frame["features"]] == [1, 2, 3, 4]
+
+
 def test_longitudes_and_latitudes_may_differ_in_dimensions(winds):
     lon, lat = np.meshgrid(np.arange(0.0, 90, 30), np.arange(0.0, 60, 20))
     for target in ({"lat": ("y", lat[:, 0]), "lon": ("x", lon[0])},):
