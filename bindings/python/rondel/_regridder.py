@@ -106,7 +106,8 @@ class Regridder(Described):
         extrapolated at the border, and warns of it.
     max_uncovered : float, optional
         With conservative methods, the share of a target that may lie outside of the source, from 0
-        to 1; targets with less in it are unmapped. By default 1, as in xESMF.
+        to 1; targets with less in it are unmapped. By default 1, as in xESMF. It is refused beside
+        weights that are given (`weights`, `reuse_weights`).
     unmapped_to_nan : bool, optional
         Whether targets to which no source contributes are NaN (default True) or 0. As in xESMF, a
         target that needs a missing value is NaN in any case, and so are all targets without a value
@@ -206,6 +207,12 @@ class Regridder(Described):
 
         if method not in _METHODS:
             raise ValueError(f"method must be one of {', '.join(_METHODS)}, not {method!r}")
+        if reuse_weights and weights is None:
+            if filename is None:
+                raise ValueError(
+                    "reuse_weights needs filename or weights, which say where they are"
+                )
+            weights = filename
         require_rules(invalid=invalid)
         if corners not in ("error", "made"):
             raise ValueError(f"corners must be 'error' or 'made', not {corners!r}")
@@ -239,12 +246,6 @@ class Regridder(Described):
         for name in needless:
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
-        if reuse_weights and weights is None:
-            if filename is None:
-                raise ValueError(
-                    "reuse_weights needs filename or weights, which say where they are"
-                )
-            weights = filename
         self.filename = filename
         self._extrap_method = extrap_method
         self._remap: Remap | None = None  # what a file says of conservative weights

@@ -249,6 +249,9 @@ def test_files_as_in_xesmf(tmp_path):
     assert np.array_equal(kept(values), first(values))
     with pytest.raises(ValueError, match="to_netcdf\\(\\) needs the name of a file"):
         kept.to_netcdf()
+    options = {"filename": path, "reuse_weights": True, "max_uncovered": 0.5}
+    with pytest.raises(ValueError, match="max_uncovered has no effect on given weights"):
+        rondel.Regridder(FINE, COARSE, "conservative", **options)
 
 
 def test_tables_are_points():
