@@ -4,13 +4,12 @@
 
 from __future__ import annotations
 
-import operator
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_lonlat, as_threads
+from ._arrays import as_count, as_fields, as_floats, as_lonlat, as_number, as_threads
 from ._contours import Bands, Isolines
 from ._types import ArrayLike, BoolArray, FloatArray
 from ._weights import Weights
@@ -25,6 +24,28 @@ def esmf_name(method: str) -> str:
     """The name that ESMF has for a method of extrapolation; other texts as they are."""
     names = dict(zip(EXTRAPOLATIONS[3:], EXTRAPOLATIONS[:3], strict=True))
     return names.get(method, method)
+
+
+def limits_of_xesmf(
+    distance: float | None, exponent: float | None, sources: float | None, levels: float | None
+) -> dict[str, Any]:
+    """The limits of a `Regridder`; None is the default, and a float may be a whole number."""
+    made: dict[str, Any] = {"distance": None}
+    if distance is not None:
+        made["distance"] = as_number(distance, "extrap_distance")
+        if not made["distance"] >= 0:
+            raise ValueError(f"extrap_distance must not be negative, but is {distance}")
+    for key, name, value, usual, (least, most) in (
+        ("exponent", "extrap_dist_exponent", exponent, 2, (1, 100)),
+        ("sources", "extrap_num_src_pnts", sources, 8, (1, 2**31 - 1)),
+        ("levels", "extrap_num_levels", levels, 0, (0, 2**31 - 1)),
+    ):
+        is_whole = isinstance(value, (float, np.floating)) and float(value).is_integer()
+        number = usual if value is None else int(value) if is_whole else value
+        made[key] = as_count(number, name)  # type: ignore[arg-type]
+        if not least <= made[key] <= most:
+            raise ValueError(f"{name} must be from {least} to {most}, not {value}")
+    return made
 
 
 def require_limits(
@@ -258,26 +279,20 @@ def extrapolated(
     threads: int | None,
 ) -> Weights:
     """The weights with rows in place of the empty ones of targets that take part."""
-    distance = options["distance"]
     kept = [
         np.zeros(0, np.int32) if mask is None else mask.reshape(-1).astype(np.int32)
         for mask in masks
     ]
-    number, exponent, levels = (
-        operator.index(options[name]) for name in ("sources", "exponent", "levels")
-    )
-    if min(number, exponent, levels) < 0:
-        raise ValueError("numbers of sources and levels, and exponents, are not negative")
     made = _core.extrapolated_weights(
         weights._weights,
         sources,
         targets,
         list(shape),
         method,
-        distance,
-        number,
-        exponent,
-        levels,
+        options["distance"],
+        options["sources"],
+        options["exponent"],
+        options["levels"],
         kept[0],
         kept[1],
         as_threads(threads),

@@ -14,6 +14,7 @@ from ._native import Extrapolation
 from ._regrid_files import FieldMethod, as_method
 from ._regridder import Regridder, RegridMethod
 from ._types import Progress
+from ._weights import require_share
 
 # The names of `Regridder` for the methods of `regrid_file`. Categories are told by the fields.
 _OF_REGRIDDER = {
@@ -124,8 +125,7 @@ def regrid(
     (48,)
 
     """
-    if not 0 <= max_missing <= 1:
-        raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
+    require_share(max_missing, "max_missing", skipna=True)
     method = cast("FieldMethod", as_method(method))
     if method not in get_args(FieldMethod):
         names = ", ".join(map(repr, get_args(FieldMethod)))

@@ -16,14 +16,20 @@ from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
 from ._geometries import Corners, Invalid, require_rules
-from ._native import EXTRAPOLATIONS, Extrapolation, extrapolated, require_limits
+from ._native import (
+    EXTRAPOLATIONS,
+    Extrapolation,
+    extrapolated,
+    limits_of_xesmf,
+    require_limits,
+)
 from ._remap import CellOverlap, Remap, remapped
 from ._repr import Described, count
 from ._reuse import reused, said_method
 from ._second_order import SecondOrderWeights
 from ._types import BoolArray, FloatArray, Progress
 from ._weight_files import netcdf_name
-from ._weights import Weights
+from ._weights import Weights, require_share
 
 if TYPE_CHECKING:
     from ._places import Places
@@ -95,7 +101,8 @@ class Regridder(Described):
         neighboring targets with weights, level by level. 'nearest', 'idw' and 'creep' are the same.
         Weights know masks only: `regrid_file` extrapolates each field by its own missing values.
     extrap_dist_exponent, extrap_num_src_pnts : int, optional
-        With 'inverse_dist' the power of the distance (2) and the number of sources (8).
+        With 'inverse_dist' the power of the distance (2), from 1 to 100, and the number of sources
+        (8). As in xESMF, None is the default, and a whole number may be a float.
     extrap_num_levels : int, optional
         With 'creep_fill' the number of levels; 0 (default): all that can be filled.
     extrap_distance : float, optional
@@ -187,9 +194,9 @@ class Regridder(Described):
         lon_out: Hashable | None = None,
         lat_out: Hashable | None = None,
         extrap_method: Extrapolation | None = None,
-        extrap_dist_exponent: int = 2,
-        extrap_num_src_pnts: int = 8,
-        extrap_num_levels: int = 0,
+        extrap_dist_exponent: float | None = 2,
+        extrap_num_src_pnts: int | None = 8,
+        extrap_num_levels: int | None = 0,
         extrap_distance: float | None = None,
         corners: Corners = "error",
         max_uncovered: float = 1.0,
@@ -221,14 +228,17 @@ class Regridder(Described):
                 f"extrap_method must be None, 'nearest_s2d', 'inverse_dist' or 'creep_fill', not "
                 f"{extrap_method!r}"
             )
+        limits = limits_of_xesmf(
+            extrap_distance, extrap_dist_exponent, extrap_num_src_pnts, extrap_num_levels
+        )
         require_limits(
             extrap_method,
             "extrap_method",
             {
-                "extrap_distance": ("", extrap_distance, None),
-                "extrap_num_src_pnts": ("inverse_dist", extrap_num_src_pnts, 8),
-                "extrap_dist_exponent": ("inverse_dist", extrap_dist_exponent, 2),
-                "extrap_num_levels": ("creep_fill", extrap_num_levels, 0),
+                "extrap_distance": ("", limits["distance"], None),
+                "extrap_num_src_pnts": ("inverse_dist", limits["sources"], 8),
+                "extrap_dist_exponent": ("inverse_dist", limits["exponent"], 2),
+                "extrap_num_levels": ("creep_fill", limits["levels"], 0),
             },
         )
         if not 0 <= max_uncovered <= 1:
@@ -277,12 +287,6 @@ class Regridder(Described):
         else:
             made = reused(weights, method, extrap_method, self._source, self._target, threads)
         if extrap_method is not None:
-            limits = {
-                "distance": extrap_distance,
-                "sources": extrap_num_src_pnts,
-                "exponent": extrap_dist_exponent,
-                "levels": extrap_num_levels,
-            }
             made = _filled(made, self._source, self._target, extrap_method, limits, threads)
         self._coincident = self._source.coincident
         if number := self._source.num_repeated():
@@ -384,6 +388,7 @@ class Regridder(Described):
 
         if how not in ("sum", "largest_share", "by_kind"):
             raise ValueError(f"how must be 'sum', 'largest_share' or 'by_kind', not {how!r}")
+        require_share(na_thres, "na_thres", skipna)
         options: Any = {
             "skipna": skipna,
             "max_missing": na_thres,

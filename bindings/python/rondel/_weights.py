@@ -206,10 +206,7 @@ class Weights(Described):
         leading = fields.shape[:-1]
         if how not in ("sum", "largest_share"):
             raise ValueError(f"how must be 'sum' or 'largest_share', not {how!r}")
-        if not 0 <= max_missing <= 1:
-            raise ValueError(f"max_missing must be from 0 to 1, not {max_missing}")
-        if max_missing < 1 and not skipna:
-            raise ValueError("max_missing has no effect without skipna=True")
+        require_share(max_missing, "max_missing", skipna)
         found = self._weights.apply(
             fields.reshape(int(np.prod(leading)), columns),
             float(fill),
@@ -347,6 +344,14 @@ def _unpickled(
     made = Weights(indptr, indices, data, shape, **hashes)
     made._places = places
     return made
+
+
+def require_share(share: float, name: str, skipna: bool) -> None:
+    """Refuses a share of missing values that is out of range or has no effect."""
+    if not 0 <= share <= 1:
+        raise ValueError(f"{name} must be from 0 to 1, not {share}")
+    if share < 1 and not skipna:
+        raise ValueError(f"{name} has no effect without skipna=True")
 
 
 def rows_of(indptr: Any, rows: Any) -> tuple[Any, Any]:

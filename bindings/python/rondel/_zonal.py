@@ -19,6 +19,7 @@ from ._geometries import Edges, Invalid
 from ._regrid import without_mask
 from ._remap import CellOverlap
 from ._types import Progress
+from ._weights import require_share
 
 if TYPE_CHECKING:
     import pandas
@@ -125,6 +126,7 @@ def zonal_statistics(
 
     listed = statistics if isinstance(statistics, str) else ",".join(statistics)
     names = _core.names_of_statistics(listed)
+    require_share(max_missing, "max_missing", skipna=True)
     source = Places(without_mask(data, "data"), lon, lat, are_cells=True)
     if isinstance(zones, str) and _core.is_grid_name(zones):
         zones = CellSet.named(zones, threads=threads)

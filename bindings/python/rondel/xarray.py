@@ -22,7 +22,7 @@ from ._places import Places
 from ._plot_field import plot_field
 from ._regrid import regrid
 from ._regrid_files import FieldMethod
-from ._weights import Weights
+from ._weights import Weights, require_share
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -139,6 +139,7 @@ class RondelAccessor:
             are computed.
 
         """
+        require_share(max_missing, "max_missing", skipna)
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)
         if weights is None:
             weights = _weights_between(source, wanted, method or "sibson", options)

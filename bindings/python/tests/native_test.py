@@ -178,6 +178,28 @@ def test_regridder_extrapolates_by_inverse_distance(region, method):
         assert abs(found[j, i] - wanted) < 1e-10
 
 
+def test_limits_of_extrapolation_are_those_of_xesmf(region):
+    source, target, field = region
+    wanted = rondel.Regridder(source, target, "bilinear", extrap_method="inverse_dist")(field)
+    of_xesmf = {"extrap_dist_exponent": 2.0, "extrap_num_src_pnts": None}
+    found = rondel.Regridder(
+        source, target, "bilinear", extrap_method="inverse_dist", **of_xesmf
+    )
+    np.testing.assert_array_equal(found(field), wanted)
+    rondel.Regridder(source, target, "bilinear", **of_xesmf, extrap_num_levels=None)
+    for options, error, message in (
+        ({"extrap_dist_exponent": 1.5}, TypeError, "extrap_dist_exponent must be an integer"),
+        ({"extrap_dist_exponent": 0}, ValueError, "extrap_dist_exponent must be from 1 to 100"),
+        ({"extrap_num_src_pnts": 0}, ValueError, "extrap_num_src_pnts must be from 1 to"),
+        ({"extrap_num_src_pnts": "8"}, TypeError, "extrap_num_src_pnts must be an integer"),
+        ({"extrap_num_levels": -1}, ValueError, "extrap_num_levels must be from 0 to"),
+        ({"extrap_distance": -5.0}, ValueError, "extrap_distance must not be negative"),
+        ({"extrap_distance": "far"}, TypeError, "extrap_distance must be a number"),
+    ):
+        with pytest.raises(error, match=message):  # before there are grids
+            rondel.Regridder(None, None, "bilinear", extrap_method="inverse_dist", **options)
+
+
 def test_regridder_creeps_as_far_as_it_may(region):
     source, target, field = region
     plain = rondel.Regridder(source, target, "bilinear")(field)

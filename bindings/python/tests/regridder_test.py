@@ -217,6 +217,10 @@ def test_missing_values():
     half = np.ones((36, 72))
     half[::2] = np.nan
     assert np.isnan(regridder(half, skipna=True, na_thres=0.25)).all()
+    with pytest.raises(ValueError, match="na_thres has no effect without skipna=True"):
+        regridder(half, na_thres=0.5)
+    with pytest.raises(ValueError, match="na_thres must be from 0 to 1, not 50"):
+        regridder(half, skipna=True, na_thres=50)
     assert np.allclose(regridder(np.ma.masked_invalid(half), skipna=True), 1)
 
 
