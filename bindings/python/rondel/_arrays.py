@@ -126,6 +126,15 @@ def in_words(array: npt.NDArray[Any]) -> str:
     return words.get(array.dtype.kind, str(array.dtype))
 
 
+def as_vector(values: ArrayLike, name: str, count: int | None = None) -> FloatArray:
+    """One-dimensional float64, of that length if one is given; a number is one element."""
+    array = np.atleast_1d(as_floats(values, name))
+    if array.ndim != 1 or count not in (None, len(array)):
+        wanted = "(n,)" if count is None else f"({count},)"
+        raise ValueError(f"{name} must have shape {wanted}, not {array.shape}")
+    return array
+
+
 def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
     """Rows of that many numbers; an empty list is no row."""
     array = as_floats(values, name)
@@ -450,6 +459,15 @@ def unmasked(values: Any, name: str = "values") -> Any:
         return np.where(missing, np.nan, array).astype(np.float64)
     except (TypeError, ValueError):
         return values
+
+
+def as_colors(values: ArrayLike, name: str, count: int, shape: Any = None) -> FloatArray:
+    """So many numbers, also in an array of that shape; what is masked or missing is NaN."""
+    array = as_floats(unmasked(values, name), name)
+    if array.shape not in ((count,), shape):
+        wanted = f"({count},)" if shape in (None, (count,)) else f"({count},) or {shape}"
+        raise ValueError(f"{name} must have shape {wanted}, not {array.shape}")
+    return array.reshape(-1)
 
 
 def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:

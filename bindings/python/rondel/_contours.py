@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_threads, frozen
+from ._arrays import as_fields, as_threads, as_vector, frozen
 from ._geo import written
 from ._pickled import arrays_of, with_arrays
 from ._plot_contours import plot_bands, plot_isolines
@@ -116,7 +116,7 @@ def _as_input(
         raise ValueError(f"values must have shape ({len(self.points)},), not {numbers.shape}")
     return (
         np.ascontiguousarray(numbers),
-        np.ascontiguousarray(as_floats(levels, "levels").reshape(-1)),
+        as_vector(levels, "levels"),
         as_threads(threads),
     )
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_name, require_finite_or_nan, unmasked
+from ._arrays import as_colors, as_name, require_finite_or_nan
 from ._geo import Path
 from ._properties import checked_properties, json_cells
 from ._types import ArrayLike
@@ -153,9 +153,7 @@ def _page(
     is_diagram = hasattr(self, "delaunay")
     triangulation = (self.delaunay if is_diagram else self)._triangulation
     diagram = self._diagram if is_diagram else _core.diagram(triangulation)
-    numbers = None if values is None else as_floats(unmasked(values), "values")
-    if numbers is not None and numbers.shape != (len(self.points),):
-        raise ValueError(f"values have shape {numbers.shape}, not ({len(self.points)},)")
+    numbers = None if values is None else as_colors(values, "values", len(self.points))
     if numbers is not None:
         require_finite_or_nan(numbers, "values")
     if show is None:

@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._arrays import as_count, as_fields, as_floats, as_lonlat, as_number, as_threads
+from ._arrays import as_count, as_fields, as_lonlat, as_number, as_threads, as_vector
 from ._contours import Bands, Isolines
 from ._types import ArrayLike, BoolArray, FloatArray
 from ._weights import Weights
@@ -236,7 +236,7 @@ def _as_contours(
     numbers = as_fields(values, len(places))
     if numbers.ndim != 1:
         raise ValueError(f"values must have shape ({len(places)},), not {numbers.shape}")
-    limits = np.ascontiguousarray(as_floats(levels, "levels").reshape(-1))
+    limits = as_vector(levels, "levels")
     return (*cells, np.ascontiguousarray(numbers), limits, as_threads(threads))
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, unmasked
+from ._arrays import as_colors
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
 from ._map_axes import add_colors, draw_coast_lines, draw_sites, line_options, make_map, take_norm
 from ._projection import LonLatMap
@@ -131,9 +131,7 @@ class TrianglePictures:
 
 def _means(values: ArrayLike, triangles: IntArray, num_sites: int) -> FloatArray:
     """The mean of the values at the corners of each triangle."""
-    at_sites = as_floats(unmasked(values), "values")
-    if at_sites.shape != (num_sites,):
-        raise ValueError(f"values must have the shape ({num_sites},), not {at_sites.shape}")
+    at_sites = as_colors(values, "values", num_sites)
     means: FloatArray = at_sites[triangles].mean(axis=1)
     return means
 
@@ -209,9 +207,7 @@ class CellPictures:
         """
         numbers = None
         if values is not None:
-            numbers = as_floats(unmasked(values), "values")
-            if len(numbers) != len(self.points):
-                raise ValueError(f"{len(numbers)} values for {len(self.points)} sites")
+            numbers = as_colors(values, "values", len(self.points))
         # Hidden sites and duplicates have no cell that shows a color.
         seen = None if numbers is None else numbers[self.delaunay.vertices]
         norm = take_norm(options, seen, vmin, vmax)
@@ -269,9 +265,7 @@ class RegionPictures:
             If Matplotlib is not installed.
 
         """
-        numbers = None if values is None else as_floats(unmasked(values), "values")
-        if numbers is not None and len(numbers) != len(self):
-            raise ValueError(f"{len(numbers)} values for {len(self)} regions")
+        numbers = None if values is None else as_colors(values, "values", len(self))
         norm = take_norm(options, numbers, vmin, vmax)
         # Corners say where regions are unless they are all but the whole globe.
         is_small = self.areas.sum() < 2 * np.pi

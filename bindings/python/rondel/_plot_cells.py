@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, unmasked
+from ._arrays import as_colors
 from ._map_axes import add_colors, draw_coast_lines, line_options, make_map, take_norm
 from ._projection import LonLatMap
 from ._rings import FILLED, draw_rings
@@ -28,6 +28,8 @@ class Drawn(Protocol):
 
     @property
     def num_cells(self) -> int: ...
+    @property
+    def shape(self) -> tuple[int, ...]: ...
 
 
 def plot_cells(
@@ -68,6 +70,8 @@ def plot_cells(
     ------
     ImportError
         If Matplotlib is not installed.
+    ValueError
+        If the values have another shape, such as that of a field whose longitudes come first.
 
     Examples
     --------
@@ -78,9 +82,7 @@ def plot_cells(
     """
     numbers = None
     if values is not None:
-        numbers = as_floats(unmasked(values), "values").reshape(-1)
-        if len(numbers) != self.num_cells:
-            raise ValueError(f"{len(numbers)} values for {self.num_cells} cells")
+        numbers = as_colors(values, "values", self.num_cells, self.shape)
     norm = take_norm(options, numbers, vmin, vmax)
     drawn = make_map(ax, projection)
     lines = self._cells.lines()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, degrees_of, unmasked
+from ._arrays import as_colors, degrees_of
 from ._lonlat import arcs
 from ._map_axes import (
     add_colors,
@@ -114,9 +114,7 @@ def plot_mesh(
     if isinstance(values, str):
         values, words = _measured(self, values)
         label = label or words
-    colors = None if values is None else as_floats(values, "values")
-    if colors is not None and colors.shape != (len(self.points),):
-        raise ValueError(f"values has the shape {colors.shape}, not ({len(self.points)},)")
+    colors = None if values is None else as_colors(values, "values", len(self.points))
     norm = take_norm(options, colors, vmin, vmax)
     drawn = make_map(ax, projection, self.vertex_points / self.radius)
     if colors is not None:
@@ -259,10 +257,8 @@ def _triangle_colors(self: Any, values: Any, of_triangles: Any) -> tuple[Any, st
     given, name = (values, "values") if of_triangles is None else (of_triangles, "triangle_values")
     if given is None:
         return None, None
-    numbers = as_floats(unmasked(given, name), name)
     wanted = len(self.points) if of_triangles is None else len(self.triangles)
-    if numbers.shape != (wanted,):
-        raise ValueError(f"{name} has the shape {numbers.shape}, not ({wanted},)")
+    numbers = as_colors(given, name, wanted)
     return (numbers[self.triangles].mean(axis=1) if of_triangles is None else numbers), words
 
 

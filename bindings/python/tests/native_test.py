@@ -182,9 +182,7 @@ def test_limits_of_extrapolation_are_those_of_xesmf(region):
     source, target, field = region
     wanted = rondel.Regridder(source, target, "bilinear", extrap_method="inverse_dist")(field)
     of_xesmf = {"extrap_dist_exponent": 2.0, "extrap_num_src_pnts": None}
-    found = rondel.Regridder(
-        source, target, "bilinear", extrap_method="inverse_dist", **of_xesmf
-    )
+    found = rondel.Regridder(source, target, "bilinear", extrap_method="inverse_dist", **of_xesmf)
     np.testing.assert_array_equal(found(field), wanted)
     rondel.Regridder(source, target, "bilinear", **of_xesmf, extrap_num_levels=None)
     for options, error, message in (

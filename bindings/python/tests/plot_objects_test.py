@@ -190,6 +190,31 @@ def test_the_number_of_values_is_checked(name):
         wrong[name]()
 
 
+def test_the_shape_of_values_is_checked():
+    values, grid = np.arange(24.0), grid_cells()
+    assert grid.shape == (4, 6)
+    for right in (values, values.reshape(4, 6)):
+        grid.plot(right)
+    regions = CELLS.dissolve("aabbccd")
+    for wrong in (
+        lambda: grid.plot(values.reshape(4, 6).T),
+        lambda: grid.plot(values.reshape(1, 24)),
+        lambda: grid.plot(3.0),
+        lambda: rondel.CellSet.named("healpix:0").plot(np.ones((12, 1))),
+        lambda: TRI.plot(values=HEIGHTS[:, None]),
+        lambda: CELLS.plot(HEIGHTS[:, None]),
+        lambda: CELLS.plot(3.0),
+        lambda: regions.plot(np.ones((len(regions), 1))),
+        lambda: mesh().plot(np.ones((30, 1))),
+        lambda: box_mesh().plot(np.ones((5, 1))),
+        lambda: TRI.save_html("never.html", HEIGHTS[:, None]),
+    ):
+        with pytest.raises(ValueError, match=r"values must have shape \(\d+,\)"):
+            wrong()
+    with pytest.raises(ValueError, match=r"levels must have shape \(n,\), not \(1, 2\)"):
+        TRI.isolines(HEIGHTS, [[1.0, 2.0]])
+
+
 def test_a_triangle_has_the_mean_of_its_corners_where_it_is():
     """The polygon of each triangle contains its middle, seen from the center of the sphere."""
     tri = rondel.delaunay(clouds.uniform(40))
