@@ -188,11 +188,11 @@ def as_kept(points: ArrayLike, *, copy: bool, columns: int = 3) -> FloatArray:
     return frozen(array)
 
 
-def as_queries(xi: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
+def as_queries(xi: ArrayLike, name: str = "xi") -> tuple[FloatArray, tuple[int, ...]]:
     """Query points as (q, 3), and the shape of the answers."""
-    array = as_floats(xi, "xi")
+    array = as_floats(xi, name)
     if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(f"xi must have shape (..., 3), not {array.shape}; {HINT_OF_DEGREES}")
+        raise ValueError(f"{name} must have shape (..., 3), not {array.shape}; {HINT_OF_DEGREES}")
     return array.reshape(-1, 3), array.shape[:-1]
 
 
@@ -252,6 +252,8 @@ def as_indices(values: ArrayLike, name: str) -> IntArray:
     bad = np.flatnonzero((array < 0) | (array > np.iinfo(np.int32).max))
     if bad.size:
         raise InvalidInput(f"there is no site {array.ravel()[bad[0]]}", int(bad[0]))
+    if array.ndim > 1:
+        raise ValueError(f"{name} must have shape (n,), not {array.shape}")
     return np.require(array, np.int32, ["C", "A"]).reshape(-1)
 
 
@@ -317,11 +319,14 @@ def as_radius(radius: float) -> float:
 
 def as_center(center: ArrayLike | None) -> tuple[float, float, float]:
     """The center of the sphere as three floats."""
-    if center is None:
-        return ORIGIN
-    array = as_floats(center, "center")
+    return ORIGIN if center is None else as_point(center, "center")
+
+
+def as_point(point: ArrayLike, name: str = "point") -> tuple[float, float, float]:
+    """A point as three floats."""
+    array = as_floats(point, name)
     if array.shape != (3,):
-        raise ValueError(f"center must have shape (3,), not {array.shape}")
+        raise ValueError(f"{name} must have shape (3,), not {array.shape}")
     x, y, z = array.tolist()
     return x, y, z
 
@@ -415,7 +420,8 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     [90.0, 0.0]
 
     """
-    xyz = as_floats(points, "points")
+    rows, shape = as_queries(points, "points")
+    xyz = rows.reshape(*shape, 3)
     relative = xyz - np.asarray(as_center(center))
     for bad, what in (
         (np.isinf(xyz).any(axis=-1), "infinite"),
@@ -494,5 +500,4 @@ def point_set_hash(points: ArrayLike) -> int:
         A number of 64 bits, never 0; it is the same on every machine.
 
     """
-    array = as_floats(points, "points")
-    return _core.point_set_hash(as_points(array.reshape(-1, array.shape[-1] if array.ndim else 1)))
+    return _core.point_set_hash(as_queries(points, "points")[0])

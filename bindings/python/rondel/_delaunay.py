@@ -12,9 +12,9 @@ import numpy as np
 from . import _core
 from ._arrays import (
     as_center,
-    as_floats,
     as_kept,
     as_lonlat,
+    as_point,
     as_radius,
     as_threads,
     degrees_of,
@@ -234,7 +234,7 @@ class SphericalDelaunay(
             If the point is not finite or is the center.
 
         """
-        return self._locator().conflict_region(tuple(as_floats(point, "point").tolist()))
+        return self._locator().conflict_region(as_point(point))
 
     def voronoi(self) -> Diagram[SphericalDelaunay]:
         """Returns the Voronoi or power diagram, which is the dual of this triangulation.

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arrays import as_center, as_floats, as_points, as_threads
+from ._arrays import as_center, as_point, as_points, as_threads
 from ._constrained import ConstrainedDelaunay, as_constraints
 from ._dynamic_sites import DynamicSites, as_id
 from ._mesh import Lists
@@ -120,10 +120,7 @@ class DynamicConstrainedTriangulation(DynamicSites):
             If a coordinate is not finite, the point is the center, or there is no site `hint`.
 
         """
-        array = as_floats(point, "point")
-        if array.shape != (3,):
-            raise ValueError(f"point must have shape (3,), not {array.shape}")
-        coordinates = tuple(array.tolist())
+        coordinates = as_point(point)
         if hint is None:
             return self._state.insert(coordinates)
         return self._state.insert_near(coordinates, as_id(hint))

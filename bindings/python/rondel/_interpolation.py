@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._arrays import HINT_OF_DEGREES, as_fields, as_floats, as_threads, require_finite_or_nan
+from ._arrays import as_fields, as_floats, as_queries, as_threads, require_finite_or_nan
 from ._types import ArrayLike, FloatArray, Progress
 from ._weights import Weights
 
@@ -54,11 +54,7 @@ def _as_rings(rings: int) -> int:
 def as_targets(targets: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     """Targets as (m, 3), and the shape of the answers."""
     array = as_floats(targets, "targets")
-    if array.shape == (0,):
-        array = array.reshape(0, 3)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(f"targets must have shape (..., 3), not {array.shape}; {HINT_OF_DEGREES}")
-    return array.reshape(-1, 3), array.shape[:-1]
+    return as_queries(array.reshape(0, 3) if array.shape == (0,) else array, "targets")
 
 
 def as_vectors(values: ArrayLike, num_sites: int, name: str) -> FloatArray:

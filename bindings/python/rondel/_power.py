@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from . import _core
-from ._arrays import ORIGIN, as_floats, as_lonlat, as_points, as_threads
+from ._arrays import ORIGIN, as_floats, as_lonlat, as_points, as_threads, as_vector
 from ._delaunay import SphericalDelaunay
 from ._diagram import Diagram
 from ._types import ArrayLike, IntArray, Progress
@@ -79,9 +79,11 @@ def power_diagram(
 
     """
     centers = as_floats(centers, "centers")
+    count = len(centers) if centers.ndim else None
     radii = as_floats(radii_deg, "radii_deg")
-    if radii.ndim == 0:
-        radii = np.full(len(centers), float(radii))
+    if radii.ndim == 0 and count is not None:
+        radii = np.full(count, float(radii))
+    radii = as_vector(radii, "radii_deg", count)
     degrees = None
     if centers.ndim == 2 and centers.shape[1] == 2:
         degrees = as_lonlat(centers[:, 0], centers[:, 1])

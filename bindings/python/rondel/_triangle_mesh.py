@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_name, as_rows, as_threads, frozen
+from ._arrays import as_floats, as_indices, as_name, as_rows, as_threads, as_vector, frozen
 from ._errors import warn_caller
 from ._geometries import Edges, Invalid
 from ._mesh_making import Spacing, raster_of
@@ -125,8 +125,8 @@ class TriangleMesh:
             given if is_lonlat else np.empty((0, 2)),
             _rows_of_indices(triangles, 3, "triangles"),
             None if coast is None else _rows_of_indices(coast, 2, "coast"),
-            nothing if depths is None else as_floats(depths, "depths"),
-            nothing if levels is None else as_floats(levels, "levels"),
+            nothing if depths is None else as_vector(depths, "depths"),
+            nothing if levels is None else as_vector(levels, "levels"),
         )
 
     @classmethod

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from . import _core
-from ._arrays import as_center, as_floats, as_kept
+from ._arrays import as_center, as_kept, as_vector
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._diagram import Diagram
 from ._dimensions import circle_diagram, general_diagram
@@ -137,7 +137,7 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         if points.shape[1] < 2:
             raise ValueError(f"points must have shape (n, 3), not {points.shape}")
         dimensions = points.shape[1]
-        center = np.zeros(dimensions) if center is None else as_floats(center, "center")
+        center = as_vector(np.zeros(dimensions) if center is None else center, "center", dimensions)
         if dimensions > 2:
             mesh, attributes = general_diagram(points, radius, center, threshold)
         else:

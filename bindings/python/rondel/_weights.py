@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 import zipfile
 from typing import Any, Literal
@@ -12,7 +13,15 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_name, as_threads, point_set_hash, require_unmasked
+from ._arrays import (
+    as_fields,
+    as_floats,
+    as_name,
+    as_threads,
+    as_vector,
+    point_set_hash,
+    require_unmasked,
+)
 from ._errors import warn_caller
 from ._geo import Path
 from ._repr import Described, count
@@ -74,7 +83,9 @@ class Weights(Described):
         sites_hash: int = 0,
         targets_hash: int = 0,
     ) -> None:
-        rows, columns = shape
+        if len(shape) != 2 or not all(hasattr(number, "__index__") for number in shape):
+            raise TypeError(f"shape must be two integers, not {tuple(shape)}")
+        rows, columns = map(operator.index, shape)
         most = np.iinfo(np.int32).max
         if not 0 <= columns <= most:
             raise ValueError(f"shape {tuple(shape)} must have from 0 to {most} columns")
@@ -84,7 +95,7 @@ class Weights(Described):
         self._weights = _core.Weights.from_arrays(
             offsets,
             _as_integers(indices, np.int32, "indices"),
-            np.atleast_1d(as_floats(data, "data")),
+            as_vector(data, "data"),
             columns,
             sites_hash,
             targets_hash,
@@ -368,6 +379,8 @@ def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
         array = array.astype(kind)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {array.dtype}")
+    if array.ndim > 1:
+        raise ValueError(f"{name} must have shape (n,), not {array.shape}")
     if array.size and not 0 <= array.min() <= array.max() <= np.iinfo(kind).max:
         raise ValueError(f"{name} has numbers that are negative or too large")
     return np.require(array, kind, ["C", "A"]).reshape(-1)

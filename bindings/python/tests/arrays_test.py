@@ -7,6 +7,7 @@ import fractions
 import gc
 import os
 import pickle
+import re
 import subprocess
 import sys
 import warnings
@@ -17,6 +18,7 @@ import numpy as np
 import pytest
 
 import rondel
+import rondel.mesh
 
 KEEPERS = {
     "delaunay": rondel.delaunay,
@@ -193,6 +195,44 @@ def test_wrong_shapes(shape):
         rondel.delaunay(np.ones(shape))
 
 
+def test_wrong_shapes_are_named():
+    tri, circle = rondel.delaunay(clouds.cube()), [[1, 0], [0, 1], [-1, 0]]
+    lonlat, triangles = [[0, 0], [4, 0], [4, 3]], [[0, 1, 2]]
+    for call, message in (
+        (lambda: tri.conflict_region([[1, 0, 0]]), "point must have shape (3,), not (1, 3)"),
+        (lambda: tri.conflict_region([10, 20]), "point must have shape (3,), not (2,)"),
+        (
+            lambda: rondel.power_diagram(lonlat, [[1], [2], [3]]),
+            "radii_deg must have shape (3,), not (3, 1)",
+        ),
+        (lambda: rondel.power_diagram(lonlat, [1]), "radii_deg must have shape (3,), not (1,)"),
+        (
+            lambda: rondel.mesh.TriangleMesh(lonlat, triangles, depths=[[1], [2], [3]]),
+            "depths must have shape (n,), not (3, 1)",
+        ),
+        (
+            lambda: rondel.mesh.TriangleMesh(lonlat, triangles, levels=[[1, 2]]),
+            "levels must have shape (n,), not (1, 2)",
+        ),
+        (lambda: rondel.Weights([0, 1], [0], [[1.0]], (1, 1)), "data must have shape (n,)"),
+        (lambda: rondel.Weights([0, 1], [[0]], [1.0], (1, 1)), "indices must have shape (n,)"),
+        (
+            lambda: rondel.SphericalVoronoi(circle, center=[0, 0, 0]),
+            "center must have shape (2,), not (3,)",
+        ),
+        (lambda: rondel.lonlat(lonlat), "points must have shape (..., 3), not (3, 2)"),
+        (lambda: rondel.point_set_hash([]), "points must have shape (..., 3), not (0,)"),
+        (
+            lambda: rondel.CellSet.polygons([0, 1], [[0, 3]], [0, 1, 2], clouds.cube()),
+            "rings must have shape (n,), not (1, 2)",
+        ),
+    ):
+        with pytest.raises(ValueError, match=re.escape(message)):
+            call()
+    with pytest.raises(TypeError, match=r"shape must be two integers, not \(1.0, 1.0\)"):
+        rondel.Weights([0, 1], [0], [1.0], (1.0, 1.0))
+
+
 @pytest.mark.parametrize("values", [[["a", "b", "c"]], [[1j, 0, 0]], np.zeros((1, 3), "M8[s]")])
 def test_wrong_types(values):
     with pytest.raises(TypeError, match="real numbers"):
@@ -268,6 +308,7 @@ def test_the_number_of_threads_changes_nothing():
 THREADS_OF_AREAS = """
 import os, pickle, sys, threading
 import rondel
+import rondel.mesh
 
 def max_more_threads(diagram):
     count = lambda: len(os.listdir("/proc/self/task"))
@@ -306,6 +347,7 @@ def test_what_was_built_elsewhere_uses_all_cores():
 def test_what_others_hold_at_the_end_is_not_said_to_be_a_leak():
     program = """
 import rondel
+import rondel.mesh
 tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
 held = tri.simplices
 # What a library does that keeps a reference in memory of its own.

@@ -106,7 +106,7 @@ def test_whose_they_are():
     assert not WEIGHTS.is_of(SITES, TARGETS[:-1])
     assert not SMALL.is_of(SITES)
     assert rondel.point_set_hash([[0.0, 0, 1]]) == rondel.point_set_hash([[-0.0, 0, 1]])
-    with pytest.raises(ValueError, match=r"points must have shape \(n, 3\)"):
+    with pytest.raises(ValueError, match=r"points must have shape \(..., 3\)"):
         rondel.point_set_hash([1, 2])
 
 
