@@ -55,9 +55,10 @@ def plot_field(
     label = _label(array) if label is None else label
     if places.have_cells:
         return places.cells(None).plot(field.values, ax, label=label, **options)
-    pairs = places.pairs()
+    pairs, numbers = places.located()
+    values = field.values.reshape(-1)
     diagram = SphericalVoronoi.from_lonlat(pairs[:, 0], pairs[:, 1], duplicates="merge")
-    return diagram.plot(field.values.reshape(-1), ax, label=label, **options)
+    return diagram.plot(values if numbers is None else values[numbers], ax, label=label, **options)
 
 
 def _label(array: Any) -> str:

@@ -186,7 +186,8 @@ class RondelAccessor:
 
         Cells are those of the grid or mesh: by the bounds of the coordinates, half way between
         longitudes and latitudes along axes, or those of a named grid such as HEALPix. Places
-        without cells, such as stations, have their Voronoi cells.
+        without cells, such as stations, have their Voronoi cells; those without a longitude or
+        latitude are left out.
 
         Parameters
         ----------
