@@ -16,6 +16,7 @@ from ._arrays import as_threads
 from ._cell_set import CellSet
 from ._cells import polygons
 from ._geometries import Edges, Invalid
+from ._pickled import with_arrays
 from ._regrid import without_mask
 from ._remap import CellOverlap
 from ._types import Progress
@@ -183,6 +184,8 @@ def _is_lazy(data: Any) -> bool:
 
 
 _ZONE, _STATISTIC = "rondel_zone", "rondel_statistic"
+# What statistics need to know of the areas that zones and cells have in common.
+_OF_PIECES = ("offsets", "columns", "areas", "source_areas", "target_areas")
 
 
 class _Zones:
@@ -212,6 +215,12 @@ class _OfZones:
         self._zones, self._statistics = shape
         self.shape = (math.prod(shape), math.prod(source_shape))
         self.indptr = np.arange(self._zones + 1)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**vars(self), "_made": {name: getattr(self._made, name) for name in _OF_PIECES}}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update({**state, "_made": with_arrays(_core.Remap(), state["_made"])})
 
     def apply(self, fields: Any, **_: Any) -> Any:
         """The statistics of fields, shape (..., cells), as (..., zones * statistics)."""

@@ -170,6 +170,22 @@ def test_arrays_of_dask_give_the_same(data):
     pandas.testing.assert_frame_equal(whole, lazy)
 
 
+def test_work_of_dask_can_be_sent_to_other_processes(data):
+    dask = pytest.importorskip("dask")
+    cloudpickle = pytest.importorskip("cloudpickle")  # as Dask does
+    sent = []
+
+    def elsewhere(graph, keys, **_):
+        sent.append(cloudpickle.dumps(graph))
+        return dask.get(cloudpickle.loads(sent[-1]), keys)
+
+    whole = rondel.zonal_statistics(data, "grid:90", NAMES.split())
+    with dask.config.set(scheduler=elsewhere):
+        lazy = rondel.zonal_statistics(data.chunk({"time": 1}), "grid:90", NAMES.split())
+    assert sent
+    pandas.testing.assert_frame_equal(whole, lazy)
+
+
 def test_means_are_those_of_a_regridder(data):
     zones = rondel.CellSet.named("healpix:1")
     table = rondel.zonal_statistics(data, zones)
