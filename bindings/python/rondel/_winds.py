@@ -8,7 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_fields, as_floats, as_threads, target_vectors, unit_vectors
+from ._arrays import (
+    as_fields,
+    as_floats,
+    as_threads,
+    by_names,
+    target_vectors,
+    unit_vectors,
+    values_by_names,
+)
 from ._interpolation import (
     Interpolation,
     Method,
@@ -102,7 +110,8 @@ class VectorInterpolation(Interpolation):
             The components at the sites, in any unit. At a pole they refer to the longitude by which
             the site was given, or else to longitude 0.
         lon, lat : array_like
-            Longitudes and latitudes of the targets in degrees, broadcast against each other.
+            Longitudes and latitudes of the targets in degrees, broadcast against each other as in
+            `unit_vectors`: arrays of xarray by the names of their dimensions.
         method : {'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic'}, optional
             As in `weights`; by default 'sibson'.
         **options
@@ -122,11 +131,12 @@ class VectorInterpolation(Interpolation):
 
         """
         u = as_fields(east, self.npoints, "east")
-        v = as_fields(north, self.npoints, "north")
+        v = as_fields(values_by_names(north, east), self.npoints, "north")
         if u.shape != v.shape:
             raise ValueError(f"east and north differ in shape: {u.shape} and {v.shape}")
         to_east, to_north = directions(*np.moveaxis(self.lonlat, -1, 0))
         vectors = u[..., None] * to_east + v[..., None] * to_north
+        lon, lat = by_names(lon, lat)
         lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
         found = self.interpolate_vectors(
             vectors, target_vectors(lon, lat, self.center), method, **options

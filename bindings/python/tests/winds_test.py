@@ -53,6 +53,21 @@ def test_winds_by_degrees():
     assert np.allclose([east, north], expected, rtol=0, atol=1e-13)
 
 
+def test_winds_by_names_of_dimensions():
+    xarray = pytest.importorskip("xarray")
+    tri = rondel.delaunay(SITES)
+    to_lon, to_lat = np.linspace(0, 350, 18), np.linspace(-80, 80, 18)
+    lon, lat = xarray.DataArray(to_lon, dims="lon"), xarray.DataArray(to_lat, dims="lat")
+    u, v = (np.stack([part, 2 * part]) for part in components(*tri.lonlat.T))
+    wanted = tri.interpolate_winds(u, v, to_lon, to_lat[:, None])
+    east = xarray.DataArray(u, dims=("time", "site"))
+    north = xarray.DataArray(v.T, dims=("site", "time"))
+    found = tri.interpolate_winds(east, north, lon, lat)
+    np.testing.assert_array_equal(found, wanted)
+    turned = tri.interpolate_winds(u, v, *xarray.broadcast(lon, lat))
+    np.testing.assert_array_equal(turned, np.swapaxes(wanted, -1, -2))
+
+
 def test_components_of_their_own_fail_at_the_pole():
     """Why winds are not two fields of numbers."""
     tri = rondel.delaunay(SITES)
