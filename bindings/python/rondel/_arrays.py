@@ -7,7 +7,6 @@ from __future__ import annotations
 import operator
 import os
 import re
-import sys
 from fractions import Fraction
 from typing import Any, TypeVar
 
@@ -16,7 +15,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import InvalidInput
-from ._properties import is_double, is_missing, plain, stacked
+from ._properties import are_labeled, is_double, is_missing, plain, stacked
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray, Model, Path
 
 Number = TypeVar("Number", bound=np.generic)
@@ -196,17 +195,11 @@ def as_queries(xi: ArrayLike, name: str = "xi") -> tuple[FloatArray, tuple[int, 
     return array.reshape(-1, 3), array.shape[:-1]
 
 
-def _are_labeled(*arrays: Any) -> bool:
-    """Whether all arrays are those of xarray, whose dimensions have names."""
-    xarray = sys.modules.get("xarray")
-    return xarray is not None and all(isinstance(array, xarray.DataArray) for array in arrays)
-
-
 def by_names(lon: Any, lat: Any) -> tuple[Any, Any]:
     """The same; of two arrays of xarray as broadcast by the names of their dimensions: in the order
     of the longitudes or, where these differ, those of the latitudes first.
     """
-    if not _are_labeled(lon, lat):
+    if not are_labeled(lon, lat):
         return lon, lat
     import xarray
 
@@ -220,14 +213,14 @@ def by_names(lon: Any, lat: Any) -> tuple[Any, Any]:
 
 def values_by_names(values: Any, lon: Any) -> Any:
     """The same; of arrays of xarray with the dimensions of the longitudes last, in their order."""
-    if not _are_labeled(values, lon) or not set(lon.dims) <= set(values.dims):
+    if not are_labeled(values, lon) or not set(lon.dims) <= set(values.dims):
         return values
     return values.transpose(..., *lon.dims)
 
 
 def as_lonlat(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     """Longitudes and latitudes as (n, 2) degrees."""
-    if _are_labeled(lon, lat):
+    if are_labeled(lon, lat):
         dims: list[Any] = [each.dims for each in (lon, lat)]  # type: ignore[union-attr]
         if set(dims[0]) != set(dims[1]):
             raise ValueError(

@@ -8,6 +8,7 @@ import datetime
 import json
 import math
 import re
+import sys
 from collections.abc import Mapping, Set
 from typing import Any
 
@@ -48,7 +49,7 @@ def checked_properties(
             warn_caller(
                 f"the property {name!r} has infinite numbers ({num_infinite}), which become null"
             )
-        checked[name] = values
+        checked[name] = values.values if are_labeled(values) else values
     return checked
 
 
@@ -124,6 +125,12 @@ def _json_cell(value: Any) -> str:
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     return json.dumps(value, ensure_ascii=False, allow_nan=False, default=_as_text)
+
+
+def are_labeled(*arrays: Any) -> bool:
+    """Whether all arrays are those of xarray, whose dimensions have names."""
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and all(isinstance(array, xarray.DataArray) for array in arrays)
 
 
 def is_missing(value: Any) -> bool:

@@ -29,7 +29,14 @@ from ._geometries import (
 )
 from ._pickled import arrays_of, with_arrays
 from ._plot import RegionPictures
-from ._properties import checked_properties, frame_column, is_missing, json_columns
+from ._properties import (
+    are_labeled,
+    checked_properties,
+    frame_column,
+    is_missing,
+    json_columns,
+    with_gaps,
+)
 from ._repr import Described, count
 from ._types import ArrayLike, Divided, FloatArray, Progress, Properties
 
@@ -378,7 +385,7 @@ class CellRegions:
             within = as_cell_set(regions, edges, shared, invalid, threads)._cells
             found = _core.clip(cells, within, as_threads(threads), progress)
             return Regions._of(found, np.arange(len(self.points)), "site")
-        numbers, names = _numbered(values)
+        numbers, names = _numbered(values, "values")
         within = as_cell_set(regions, edges, shared, invalid, threads, numbers)._cells
         _require_size(numbers, within.num_cells, "values", "regions")
         found, sites, groups = _core.intersection(
@@ -394,8 +401,8 @@ class CellRegions:
         Parameters
         ----------
         groups : sequence, shape (n,)
-            The group of each site: a number, a text, or any hashable object. A site whose group is
-            None, NaN or NA belongs to no group.
+            The group of each site: a number, a text, a time, or any hashable object. A site whose
+            group is None, NaN, NaT or NA belongs to no group.
         threads : int, optional
             The largest number of threads; by default one for each core.
         progress : callable or bool, optional
@@ -541,7 +548,7 @@ def as_cell_set(
 def _dissolved(
     rings: _core.CellRings, groups: Any, threads: int | None, progress: Progress
 ) -> Regions:
-    numbers, labels = _numbered(groups)
+    numbers, labels = _numbered(groups, "groups")
     _require_size(numbers, rings.num_cells, "groups", "cells")
     joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
     return Regions._of(joined, labels, "group")
@@ -553,8 +560,13 @@ def _require_size(numbers: Any, num_cells: int, what: str, of: str) -> None:
 
 
 # The groups as numbers, -1 for none, and what each of them is.
-def _numbered(groups: Any) -> tuple[Any, np.ndarray[Any, Any]]:
-    values: Sequence[Hashable] = groups.tolist() if hasattr(groups, "tolist") else list(groups)
+def _numbered(groups: Any, what: str) -> tuple[Any, np.ndarray[Any, Any]]:
+    given = groups.values if are_labeled(groups) else groups
+    if getattr(given, "ndim", 1) != 1:
+        raise ValueError(f"{what} must have shape (n,), not {given.shape}")
+    if isinstance(given, np.ndarray) and given.dtype.kind in "mM":
+        given = list(with_gaps(given))  # tolist() makes integers of nanoseconds
+    values: Sequence[Hashable] = given.tolist() if hasattr(given, "tolist") else list(given)
     known: dict[Hashable, int] = {}
     numbers = np.full(len(values), -1, np.int32)
     for i, value in enumerate(values):

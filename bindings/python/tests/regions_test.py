@@ -83,10 +83,46 @@ def test_groups_are_labels():
     assert np.isclose(numbers.areas[0], CELLS.areas[:150].sum(), rtol=1e-13)
     with pytest.raises(ValueError, match="3 groups for 200 cells"):
         CELLS.dissolve([1, 2, 3])
+    with pytest.raises(ValueError, match=r"groups must have shape \(n,\), not \(100, 2\)"):
+        CELLS.dissolve(np.zeros((100, 2)))
     everything = CELLS.dissolve(np.zeros(200, int))
     assert len(everything) == 1
     assert np.isclose(everything.areas[0], 4 * np.pi, rtol=1e-15)  # no border, but not empty
     assert repr(everything) == "<rondel.Regions: 1 region>"
+
+
+@pytest.mark.parametrize("unit", ["D", "s", "ns"])
+def test_times_are_labels(unit):
+    days = np.array(["2020-01-01", "NaT", "2021-06-01", "2020-01-01"], f"M8[{unit}]")
+    times = np.tile(days, 50)
+    joined = CELLS.dissolve(times)
+    np.testing.assert_array_equal(joined.labels, days[[0, 2]])
+    assert joined.labels.dtype == days.dtype
+    lost = np.ma.array(times, mask=times == days[2])
+    np.testing.assert_array_equal(CELLS.dissolve(lost).labels, days[:1])
+    kept = [feature["properties"]["group"] for feature in joined.to_geojson()["features"]]
+    assert [text[:10] for text in kept] == ["2020-01-01", "2021-06-01"]
+    cut = CELLS.clip([ISLANDS], values=days[:1])
+    assert cut.values.dtype == days.dtype
+    steps = CELLS.dissolve(times - days[0])
+    np.testing.assert_array_equal(steps.labels, days[[0, 2]] - days[0])
+
+
+def test_arrays_of_xarray_are_groups_values_and_properties():
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("geopandas")
+    groups = ["even", "odd"] * 100
+    for given in (groups, [0, 1] * 100, np.tile(np.array([0, 86400], "M8[s]"), 100)):
+        found = CELLS.dissolve(xarray.DataArray(given, dims="site"))
+        np.testing.assert_array_equal(found.labels, given[:2])
+        assert found.areas.tolist() == CELLS.dissolve(groups).areas.tolist()
+        cut = CELLS.clip([ISLANDS], values=xarray.DataArray(given[:1], dims="region"))
+        np.testing.assert_array_equal(np.unique(cut.values), given[:1])
+        properties = {"own": xarray.DataArray(given[:2], dims="region")}
+        regions = CELLS.dissolve(groups)
+        (first, second) = regions.to_geojson(properties=properties)["features"]
+        assert first["properties"]["own"] != second["properties"]["own"]
+        assert regions.to_geopandas(properties=properties)["own"].nunique() == 2
 
 
 def test_duplicates_and_power_cells():
