@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import io
-import os
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -13,7 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_fields, as_threads, as_vector, frozen
-from ._geo import written
+from ._geo import File, Path, written
 from ._pickled import arrays_of, with_arrays
 from ._plot_contours import plot_bands, plot_isolines
 from ._repr import Described, count
@@ -135,12 +133,8 @@ class Traced(Described):
     @overload
     def to_geojson(self, path: None = None, *, tolerance: float = 0.01) -> dict[str, Any]: ...
     @overload
-    def to_geojson(
-        self, path: str | os.PathLike[str] | io.IOBase, *, tolerance: float = 0.01
-    ) -> None: ...
-    def to_geojson(
-        self, path: str | os.PathLike[str] | io.IOBase | None = None, *, tolerance: float = 0.01
-    ) -> Any:
+    def to_geojson(self, path: Path | File, *, tolerance: float = 0.01) -> None: ...
+    def to_geojson(self, path: Path | File | None = None, *, tolerance: float = 0.01) -> Any:
         """Converts the lines or bands to GeoJSON (RFC 7946).
 
         There is a feature for each level: a MultiLineString, or null, with the property `level`.
@@ -149,7 +143,7 @@ class Traced(Described):
 
         Parameters
         ----------
-        path : path-like or file object, optional
+        path : path-like or file object, text or binary, optional
             Where to write the text; by default it is parsed and returned.
         tolerance : float, optional
             The largest distance of a straight line from its arc, in degrees; by default 0.01.

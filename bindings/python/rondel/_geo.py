@@ -9,7 +9,8 @@ import json
 import os
 import shutil
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias, overload
+from contextlib import suppress
+from typing import IO, TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     import xarray
 
 Path: TypeAlias = "str | os.PathLike[str]"
+File: TypeAlias = "io.IOBase | IO[str] | IO[bytes]"  # open for writing
 
 
 class TriangleShapes:
@@ -31,15 +33,15 @@ class TriangleShapes:
     @overload
     def to_geojson(self: Triangulated, path: None = None) -> dict[str, Any]: ...
     @overload
-    def to_geojson(self: Triangulated, path: Path | io.IOBase) -> None: ...
-    def to_geojson(self: Triangulated, path: Path | io.IOBase | None = None) -> Any:
+    def to_geojson(self: Triangulated, path: Path | File) -> None: ...
+    def to_geojson(self: Triangulated, path: Path | File | None = None) -> Any:
         """The faces as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
 
         A feature for each solid face, with the property `sites`, the indices of its corners.
 
         Parameters
         ----------
-        path : path-like or file object, optional
+        path : path-like or file object, text or binary, optional
             Where to write the text; otherwise it is returned, parsed.
 
         Returns
@@ -108,14 +110,14 @@ class CellShapes:
     @overload
     def to_geojson(
         self: Divided,
-        path: Path | io.IOBase,
+        path: Path | File,
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
     ) -> None: ...
     def to_geojson(
         self: Divided,
-        path: Path | io.IOBase | None = None,
+        path: Path | File | None = None,
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
@@ -126,7 +128,7 @@ class CellShapes:
 
         Parameters
         ----------
-        path : path-like or file object, optional
+        path : path-like or file object, text or binary, optional
             Where to write the text; otherwise it is returned, parsed.
         properties : mapping of str to sequence, optional
             More properties: for each a value for every site. Numbers, booleans, texts and what else
@@ -232,7 +234,7 @@ class CellShapes:
         return mesh
 
 
-def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes | None]) -> Any:
+def written(path: Path | File | None, write: Callable[[str | None], bytes | None]) -> Any:
     """What `write` makes, bytes of GeoJSON for None: in the file, or parsed."""
     if isinstance(path, (str, os.PathLike)):
         name = as_name(path)
@@ -244,10 +246,12 @@ def written(path: Path | io.IOBase | None, write: Callable[[str | None], bytes |
     if path is None:
         # A function is called for each object, so that Ctrl-C ends the reading.
         return json.loads(text, object_hook=lambda found: found)
+    file: Any = path
     content: Any = io.BytesIO(text)
-    if not isinstance(path, (io.RawIOBase, io.BufferedIOBase)):
+    with suppress(TypeError):  # of a binary file
+        file.write("")
         content = io.TextIOWrapper(content, "utf-8", newline="")
-    shutil.copyfileobj(content, path)
+    shutil.copyfileobj(content, file)
     return None
 
 

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 from collections.abc import Hashable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -15,7 +14,7 @@ from . import _core
 from ._arrays import as_threads
 from ._cell_set import CellSet
 from ._errors import warn_caller
-from ._geo import Path, arrow_of, polygon_frame, written
+from ._geo import File, Path, arrow_of, polygon_frame, written
 from ._geometries import (
     Edges,
     Groups,
@@ -186,7 +185,7 @@ class Regions(Described, RegionPictures):
     @overload
     def to_geojson(
         self,
-        path: Path | io.IOBase,
+        path: Path | File,
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
@@ -194,7 +193,7 @@ class Regions(Described, RegionPictures):
     ) -> None: ...
     def to_geojson(
         self,
-        path: Path | io.IOBase | None = None,
+        path: Path | File | None = None,
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
@@ -208,7 +207,7 @@ class Regions(Described, RegionPictures):
 
         Parameters
         ----------
-        path : path-like or file object, optional
+        path : path-like or file object, text or binary, optional
             Where to write the text; by default it is parsed and returned.
         properties : mapping of str to sequence, optional
             Further properties: for each name a value for every region.

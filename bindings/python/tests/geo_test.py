@@ -7,6 +7,7 @@ import errno
 import io
 import itertools
 import json
+import tempfile
 
 import clouds
 import numpy as np
@@ -110,6 +111,26 @@ def test_open_files(tmp_path):
     diagram.to_geojson(text, properties=properties)
     diagram.to_geojson(data, properties=properties)
     assert data.getvalue() == text.getvalue().encode() == path.read_bytes()
+    with tempfile.NamedTemporaryFile() as file, tempfile.TemporaryFile("w+", newline="") as other:
+        for target in (file, other):
+            diagram.to_geojson(target, properties=properties)
+            target.seek(0)
+        assert file.read() == other.read().encode() == path.read_bytes()
+    with tempfile.SpooledTemporaryFile() as file:
+        diagram.dissolve("aabbccddd").to_geojson(file)
+        assert file.seek(0, io.SEEK_END) > 0
+
+
+def test_files_of_other_systems(tmp_path):
+    fsspec = pytest.importorskip("fsspec")
+    tri = rondel.delaunay_lonlat(LON, LAT)
+    tri.to_geojson(tmp_path / "out.geojson")
+    for mode in ("wb", "w"):
+        for name in ("memory://out.geojson", (tmp_path / "other.geojson").as_uri()):
+            with fsspec.open(name, mode, **({"newline": ""} if mode == "w" else {})) as file:
+                tri.to_geojson(file)
+            with fsspec.open(name, "rb") as file:
+                assert file.read() == (tmp_path / "out.geojson").read_bytes()
 
 
 def test_triangles_as_geojson():
