@@ -25,7 +25,7 @@ from ._coordinates import (
 )
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import warn_caller
-from ._geometries import Corners, in_degrees
+from ._geometries import Corners, in_degrees, is_of_geopandas
 from ._types import BoolArray, FloatArray, IntArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MAX_APART, are_near, side_of
@@ -505,9 +505,10 @@ def _of_table(table: Any) -> xarray.Dataset:
             texts = " and ".join(map(str, columns))
             raise ValueError(f"the columns {texts} may be the {kind}: leave one")
         found[kind] = table[columns[0]].to_numpy() if columns else None
-    if found["lon"] is None and found["lat"] is None and hasattr(table, "geometry"):
+    is_nameless = found["lon"] is None and found["lat"] is None
+    if is_nameless and is_of_geopandas(table) and hasattr(table, "geometry"):
         points = in_degrees(table.geometry)
-        if not (points.geom_type == "Point").all():
+        if not points.geom_type[points.notna()].eq("Point").all():  # a missing one is nowhere
             raise TypeError(
                 "geometries that are places must be points; rondel.polygons() makes cells"
             )

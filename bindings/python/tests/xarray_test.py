@@ -286,5 +286,13 @@ def test_tables_are_points():
     frame = geopandas.GeoDataFrame(geometry=points)
     for known in (frame, frame.to_crs(3857)):
         assert np.allclose(ds.rondel.interpolate(known, "linear").t, wanted, rtol=1e-6)
+    lost = frame.set_geometry([None, points[1]], crs=4326)
+    for known in (lost, lost.to_crs(3857)):
+        with pytest.warns(UserWarning, match="1 of 2 places have no longitude or latitude"):
+            found = ds.rondel.interpolate(known, "linear").t
+        assert np.isnan(found[..., 0]).all()
+        assert np.allclose(found[..., 1], wanted[..., 1], rtol=1e-6)
+    with pytest.raises(ValueError, match="no column of the table has the longitudes"):
+        ds.rondel.interpolate(table[["name"]].assign(geometry="POINT (0 0)"))
     with pytest.raises(TypeError, match="places must be points"):
         ds.rondel.interpolate(frame.to_crs(3857).set_geometry(points.to_crs(3857).buffer(1)))
