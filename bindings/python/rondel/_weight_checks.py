@@ -78,7 +78,7 @@ class ComparedRow:
     exact: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WeightComparison:
     """Weights beside the areas that cells of both sides have in common.
 
@@ -126,6 +126,16 @@ class WeightComparison:
     source_areas: float | None
     target_areas: float | None
     worst_rows: tuple[ComparedRow, ...]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, WeightComparison) and self._values() == other._values()
+
+    def __hash__(self) -> int:
+        return hash(self._values())
+
+    def _values(self) -> tuple[Any, ...]:
+        """All members in a form that can be compared."""
+        return tuple({**vars(self), "errors": tuple(self.errors.tolist())}.values())
 
 
 @dataclass(frozen=True, repr=False)

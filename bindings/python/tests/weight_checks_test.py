@@ -42,6 +42,19 @@ def test_right_weights_have_no_fault():
     assert rondel.check_weights(weights_of()).comparison is None
 
 
+def test_reports_can_be_compared():
+    remap = weights_of()
+    first, second = (rondel.check_weights(remap, SOURCE, TARGET) for _ in range(2))
+    assert first == second
+    assert first.comparison == second.comparison
+    assert hash(first) == hash(second)
+    assert len({first, second, rondel.check_weights(remap)}) == 2
+    other = rondel.check_weights(weights_of(norm="destarea"), SOURCE, TARGET)
+    assert first != other
+    assert first.comparison != other.comparison
+    assert first.comparison != None  # noqa: E711 (what == says)
+
+
 def test_a_scaled_weight_is_found_where_it_is():
     remap = weights_of()
     matrix = remap.weights.tocsr()
