@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._arrays import as_threads
+from ._arrays import as_fields, as_threads
 from ._cell_set import CellSet
 from ._cells import polygons
 from ._geometries import Edges, Invalid
@@ -90,10 +90,11 @@ def zonal_statistics(
     Raises
     ------
     ValueError
-        If there is no such statistic, coordinates are not found, or a polygon is not valid;
-        `InvalidInput` if cells of the data overlap, or zones where `overlap` is 'error'.
+        If there is no such statistic, coordinates are not found, no variable of a Dataset is a
+        field, or a polygon is not valid; `InvalidInput` if cells of the data overlap, or zones
+        where `overlap` is 'error'.
     TypeError
-        If `include_cols` is given for zones without columns.
+        If an array has no numbers, or `include_cols` is given for zones without columns.
 
     Notes
     -----
@@ -162,6 +163,8 @@ def zonal_statistics(
         table = _table({"": found}, index, cells.num_cells, names)
     else:
         fields = {f"{name}_": array for name, array in found.items() if _ZONE in array.dims}
+        if not fields:
+            raise ValueError("no variable of the data is a field of numbers at their places")
         table = _table(fields, index, cells.num_cells, names)
     return _with_columns(table, zones, include_cols, cells.num_cells)
 
@@ -225,7 +228,7 @@ class _OfZones:
     def apply(self, fields: Any, **_: Any) -> Any:
         """The statistics of fields, shape (..., cells), as (..., zones * statistics)."""
         leading = fields.shape[:-1]
-        values = np.ascontiguousarray(np.reshape(fields, (-1, fields.shape[-1])), np.float64)
+        values = as_fields(np.reshape(fields, (-1, fields.shape[-1])), fields.shape[-1])
         listed, weights, max_missing, threads = self._rules
         found = _core.zonal_statistics(self._made, listed, values, weights, max_missing, threads)
         found = found.reshape(self._statistics, len(values), self._zones)

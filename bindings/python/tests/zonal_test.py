@@ -224,6 +224,7 @@ def test_files_have_the_same_numbers(data, tmp_path):
             assert "cell_methods" not in out.t_count.attrs
 
 
+@pytest.mark.filterwarnings("ignore:left out")
 def test_wrong_calls_are_refused(data):
     with pytest.raises(ValueError, match="'avg' is no statistic"):
         rondel.zonal_statistics(data, "grid:90", "avg")
@@ -233,5 +234,15 @@ def test_wrong_calls_are_refused(data):
         rondel.zonal_statistics(data, "grid:90", weights="none")
     with pytest.raises(ValueError, match="max_missing"):
         rondel.zonal_statistics(data, "grid:90", max_missing=2)
+    for dataset in (
+        xarray.Dataset(coords=data.coords),
+        xarray.Dataset({"name": (("lat", "lon"), np.full((36, 72), "a"))}, data.coords),
+    ):
+        with pytest.raises(ValueError, match="no variable of the data is a field of numbers"):
+            rondel.zonal_statistics(dataset, "grid:90")
+    for kind, words in (("U1", "text"), ("M8[ns]", "times"), ("c16", "complex numbers")):
+        other = xarray.zeros_like(data[0], dtype=kind)
+        with pytest.raises(TypeError, match=f"must be real numbers, not {words}"):
+            rondel.zonal_statistics(other, "grid:90")
     with pytest.raises(ValueError, match="statistics are of the cells"):
         rondel.regrid_file("in.nc", "grid:90", "o.nc", statistics="mean", method="nearest")
