@@ -436,7 +436,5 @@ def triangles(
     mesh = TriangleMesh._of(made)
     if depths is None:
         return mesh
-    made.depths = np.ascontiguousarray(as_floats(depths(mesh.points), "depths"))
-    if made.depths.shape != (len(mesh.points),):
-        raise ValueError(f"depths has the shape {made.depths.shape}, not ({len(mesh.points)},)")
+    made.depths = as_vector(depths(mesh.points), "depths", len(mesh.points))
     return mesh

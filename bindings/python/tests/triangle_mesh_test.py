@@ -165,8 +165,9 @@ def test_what_cannot_be_filled():
         rondel.mesh.triangles(sea, smallest_angle=40)
     with pytest.raises(TypeError, match="coast, area or spacing"):
         rondel.mesh.triangles()
-    with pytest.raises(ValueError, match="depths has the shape"):
-        rondel.mesh.triangles(sea, spacing=0.5, depths=lambda p: p[:3, 0])
+    for depths in (lambda p: p[:3, 0], lambda p: p[:, :1]):
+        with pytest.raises(ValueError, match=r"depths must have shape \(\d+,\), not"):
+            rondel.mesh.triangles(sea, spacing=0.5, depths=depths)
 
 
 @pytest.mark.parametrize("form", ["gmsh", "gmsh2"])
