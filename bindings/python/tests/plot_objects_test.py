@@ -502,7 +502,7 @@ def test_stations_of_xarray_have_their_cells():
     ax = data.rondel.plot(ax=plt.figure().add_subplot())
     assert set(ax.collections[0].get_array()) == set(HEIGHTS)
     assert bar_of(ax).get_xlabel() == "height"
-    places = {name: (dim, np.append(values, np.nan)) for name, (dim, values) in places.items()}
+    places = {"lon": ("station", np.append(LON + 7.0, np.nan)), "lat": ("station", [*LAT, 5.0])}
     with_gap = xarray.DataArray(np.append(HEIGHTS, 1e6), places, "station", name="height")
     with pytest.warns(UserWarning, match="1 of 8 places have no longitude or latitude"):
         found = with_gap.rondel.plot(ax=plt.figure().add_subplot())
