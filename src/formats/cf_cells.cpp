@@ -21,6 +21,7 @@
 #include "rondel/error.h"
 #include "rondel/read_cells.h"
 #include "system/arithmetic.h"
+#include "system/large_arrays.h"
 #include "system/message_text.h"
 
 namespace rondel::formats {
@@ -338,9 +339,11 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
     throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
                    io::in_quotes(lat_bounds.name) + " have not as many corners");
   }
+  system::reserve_large(mesh.nodes, lons.size());
   for (std::size_t i = 0; i < lons.size(); ++i) mesh.nodes.push_back({lons[i], lats[i]});
   mesh.names = io::in_quotes(lon_bounds.name) + " and " + io::in_quotes(lat_bounds.name);
   mesh.is_single = lon_bounds.type == io::NetcdfType::float32;
+  system::reserve_large(mesh.centers, places.lon.size());
   for (std::size_t i = 0; i < places.lon.size(); ++i) {
     mesh.centers.push_back({places.lon[i], places.lat[i]});
   }

@@ -13,6 +13,7 @@
 #include "formats/cf_values.h"
 #include "io/bad_value.h"
 #include "io/number.h"
+#include "system/large_arrays.h"
 #include "system/message_text.h"
 
 namespace rondel::formats {
@@ -275,7 +276,7 @@ bool has_rows(std::span<const std::uint64_t> shape) {
 void end_cells_of_nodes(std::size_t corners_per_cell, bool may_be_fewer, MeshContent& mesh) {
   const std::size_t num_cells = mesh.nodes.size() / corners_per_cell;
   CellRings& cells = mesh.cells;
-  cells.corners.reserve(mesh.nodes.size());
+  system::reserve_large(cells.corners, mesh.nodes.size());
   cells.rings.reserve(num_cells + 1);
   cells.cells.reserve(num_cells + 1);
   for (std::size_t i = 0; i < num_cells; ++i) {
@@ -329,8 +330,9 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
   const std::size_t num_cells = cells.num_cells();
   std::vector<std::int32_t> mask = mesh.mask;
   if (mask.empty()) mask.assign(num_cells, 1);
-  CellRings kept;
   std::size_t num_left_out = 0;
+  std::size_t num_whole = 0;
+  std::vector<bool> are_whole(num_cells);
   for (std::size_t i = 0; i < num_cells; ++i) {
     bool is_whole = true;
     for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
@@ -343,13 +345,13 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
       }
       is_whole = is_whole && is_nearly_place(mesh.nodes[node]);
     }
+    are_whole[i] = is_whole;
     if (is_whole) {
-      kept.append_rings(cells, i);
+      ++num_whole;
     } else {
       if (mask[i] != 0) ++num_left_out;
       mask[i] = 0;
     }
-    kept.end_cell();
   }
   if (num_left_out > 0 && std::ranges::count(mask, 0) == std::ssize(mask)) {
     throw BadValue("no cell has corners: values of " + mesh.names + " are missing");
@@ -359,7 +361,14 @@ void leave_out_cells_without_corners(MeshContent& mesh) {
     node = is_nearly_place(node) ? LonLat{node.lon_deg, std::clamp(node.lat_deg, -90.0, 90.0)}
                                  : LonLat{0, 0};
   }
-  mesh.cells = std::move(kept);
+  if (num_whole < num_cells) {
+    CellRings kept;
+    for (std::size_t i = 0; i < num_cells; ++i) {
+      if (are_whole[i]) kept.append_rings(cells, i);
+      kept.end_cell();
+    }
+    mesh.cells = std::move(kept);
+  }
   if (num_left_out == 0) return;
   mesh.mask = std::move(mask);
   mesh.remarks.push_back(cells_in_words(num_left_out, num_cells) +

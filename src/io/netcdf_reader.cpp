@@ -14,6 +14,7 @@
 #include "io/number.h"
 #include "io/wide_integers.h"
 #include "system/checked_product.h"
+#include "system/large_arrays.h"
 
 namespace rondel::io {
 namespace {
@@ -306,7 +307,7 @@ std::vector<std::string> NetcdfReader::strings(const VariableInFile& variable) c
 
 std::vector<double> NetcdfReader::numbers(const VariableInFile& variable) const {
   require_room(variable);
-  std::vector<double> values(variable.num_values);
+  auto values = system::large_vector<double>(variable.num_values);
   read_numbers(variable, 0, values);
   return values;
 }

@@ -18,6 +18,7 @@
 #include "rondel/remap.h"
 #include "system/checked_product.h"
 #include "system/job.h"
+#include "system/large_arrays.h"
 
 namespace rondel {
 namespace {
@@ -70,7 +71,7 @@ std::vector<LonLat> corners_of_rings(const CellRings& cells) {
   if (most == 0) return {};
   const std::vector<LonLat> places = lonlats(cells.points);
   std::vector<LonLat> corners;
-  corners.reserve(cells.num_cells() * most);
+  system::reserve_large(corners, cells.num_cells() * most);
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     if (cells.cells[i] == cells.cells[i + 1]) {
       corners.insert(corners.end(), most, LonLat{0, 0});

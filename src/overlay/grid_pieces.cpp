@@ -304,7 +304,7 @@ class GridPieceMaker {
 PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_moments,
                  const Execution& execution, bool has_column_sums) {
   const Subdivision& subdivision = cells.subdivision();
-  std::vector<PlaceInGrid> places(subdivision.points.size());
+  LargeVector<PlaceInGrid> places(subdivision.points.size());
   const GridWalk walk(grid, has_moments);
   system::parallel_for(execution.threads, places.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {

@@ -17,6 +17,7 @@
 #include "rondel/predicates.h"
 #include "system/disjoint_sets.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 #include "system/row_assembly.h"
 
 namespace rondel::overlay {
@@ -35,6 +36,16 @@ bool is_left_turn(const Point& a, const Point& b, const Point& c) {
 }
 
 auto coordinates(const Point& p) { return std::tuple(p.x, p.y, p.z); }
+
+// How many cells ahead memory is asked for: their rings are anywhere in the input.
+constexpr std::size_t cells_ahead = 8;
+
+// Asks for the points of a cell.
+void prefetch_points(const CellRings& input, std::size_t cell) {
+  const std::uint64_t begin = input.rings[input.cells[cell]];
+  const std::uint64_t end = input.rings[input.cells[cell + 1]];
+  for (std::uint64_t k = begin; k < end; ++k) system::prefetch(&input.points[input.corners[k]]);
+}
 
 // Returns the direction of a cell's center of mass, or of its first corner if the moment is zero.
 Point center_of(const CellRings& input, std::size_t cell) {
@@ -97,9 +108,12 @@ void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
   sorted.keys.resize(n);
   sorted.indices.resize(n);
   std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
-  std::vector<Point> places(n);
+  LargeVector<Point> places(n);
   system::parallel_for(threads, n, cells_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) places[i] = center_of(input, i);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + cells_ahead < end) prefetch_points(input, i + cells_ahead);
+      places[i] = center_of(input, i);
+    }
     order::place_keys(std::span(places).subspan(begin, end - begin), Model::projected, {},
                       std::span(sorted.keys).subspan(begin, end - begin));
   });
@@ -107,20 +121,30 @@ void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
   sort_equals(input, sorted);
   keys = std::move(sorted.keys);
   names.assign(sorted.indices.begin(), sorted.indices.end());
-  centers.reserve(n);
+  system::reserve_large(centers, n);
   for (const Index i : names) centers.push_back(places[i]);
 }
 
 // Rings begin at their corner with the least coordinates, so that only `names` depends on the order
 // of the input.
 void Subdivision::take_rings(const CellRings& input) {
-  std::vector<Index> new_points(input.points.size(), no_index);
+  LargeVector<Index> new_points(input.points.size(), no_index);
+  system::reserve_large(points, input.points.size());
+  rings.reserve(input.rings.size());
+  given_starts.reserve(input.rings.size());
   cells.reserve(num_cells() + 1);
   cells.push_back(0);
   rings.push_back(0);
   corners.reserve(input.corners.size());
   cell_of.reserve(input.corners.size());
+  const auto cell_after = [&](std::size_t c, std::size_t steps) {
+    return names[std::min(c + steps * cells_ahead, num_cells() - 1)];
+  };
   for (std::size_t c = 0; c < num_cells(); ++c) {
+    system::prefetch(&input.cells[cell_after(c, 4)]);
+    system::prefetch(&input.rings[input.cells[cell_after(c, 3)]]);
+    system::prefetch(input.corners.data() + input.rings[input.cells[cell_after(c, 2)]]);
+    prefetch_points(input, cell_after(c, 1));
     const Index i = names[c];
     for (std::uint64_t r = input.cells[i]; r < input.cells[i + 1]; ++r) {
       const std::size_t begin = input.rings[r];
@@ -231,7 +255,7 @@ void Subdivision::find_begins() {
 
 void Subdivision::find_twins() {
   const std::size_t size = corners.size();
-  std::vector<Index> ends(size);
+  LargeVector<Index> ends(size);
   for (Index ring = 0; ring + 1 < rings.size(); ++ring) {
     for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) {
       ends[h] = corners[h + 1 == rings[ring + 1] ? rings[ring] : h + 1];
@@ -240,7 +264,7 @@ void Subdivision::find_twins() {
   // `leaving` lists the halfedges by their origins, in compressed rows.
   system::RowPlaces<Index> places(points.size());
   for (const Index p : corners) places.count(p);
-  std::vector<Halfedge> leaving(places.sum());
+  LargeVector<Halfedge> leaving(places.sum());
   for (Halfedge h = 0; h < size; ++h) leaving[places.place(corners[h])] = h;
   const std::vector<Index> starts = std::move(places).offsets();
   twins.assign(size, no_index);

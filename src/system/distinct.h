@@ -19,6 +19,7 @@
 
 #include "rondel/types.h"
 #include "system/hash.h"
+#include "system/large_arrays.h"
 #include "system/prefetch.h"
 
 namespace rondel::system {
@@ -84,7 +85,7 @@ class KnownValues {
 template <class Value>
 Distinct<Value> distinct(std::span<const Value> values) {
   Distinct<Value> result;
-  result.numbers.resize(values.size());
+  result.numbers = large_vector<Index>(values.size());
   KnownValues<Value> known(result.values, values.size());
   std::array<std::uint64_t, prefetch_distance> hashes{};  // the hashes of the next values
   const auto prepare = [&](std::size_t k) {
