@@ -164,6 +164,11 @@ class FieldFile {
   RONDEL_API void read_points(std::size_t array, std::size_t field, std::size_t first_point,
                               std::span<double> out) const;
 
+  /// Lets read() keep uncompressed chunks of netCDF-4 of which it has read a part, in so many bytes
+  /// for each array; it is 0 before. A chunk that has many times, read some times at a time, is
+  /// uncompressed once then.
+  RONDEL_API void keep_chunks(std::size_t bytes) const;
+
   /// Reads consecutive fields of an array, beginning with field `first`, as many as `out` has room
   /// for.
   /// \param array  its index in fields().arrays

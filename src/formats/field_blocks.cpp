@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "system/checked_product.h"
+
 namespace rondel::formats {
 
 // Takes whole dimensions from the last leading one on, while they fit; the next one is divided.
@@ -34,6 +36,21 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::VariableInFile&
     }
     if (num_outer_ > 0) of_place_ *= length_;
   }
+  bytes_of_chunks_ = io::size_of(variable.type);
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    const bool is_leading = std::ranges::count(leading_, d) != 0;
+    const std::uint64_t num_chunks = is_leading ? 1 : (shape_[d] + chunk[d] - 1) / chunk[d];
+    if (!system::multiply_checked(bytes_of_chunks_, num_chunks * chunk[d], bytes_of_chunks_)) {
+      bytes_of_chunks_ = ~std::uint64_t{0};
+      break;
+    }
+  }
+}
+
+FieldBlock FieldBlocks::part_from(std::size_t field, std::size_t most) const {
+  if (leading_.empty() || of_place_ > 1) return {field, 0};
+  const std::size_t of_row = shape_[leading_[num_outer_]];
+  return {field, std::min(most, of_row - field % of_row)};
 }
 
 FieldBlock FieldBlocks::block_of(std::size_t field) const {

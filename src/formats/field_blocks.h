@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "formats/field_layout.h"
@@ -43,6 +44,11 @@ class FieldBlocks {
   [[nodiscard]] bool are_apart() const { return are_apart_; }
   // Returns the block that has this field.
   [[nodiscard]] FieldBlock block_of(std::size_t field) const;
+  // Returns up to so many fields from this one on that are a block as well, or none if fields of
+  // several indices of the divided dimension would be.
+  [[nodiscard]] FieldBlock part_from(std::size_t field, std::size_t most) const;
+  // Returns the bytes of all uncompressed chunks that a field has a part of.
+  [[nodiscard]] std::uint64_t bytes_of_chunks() const { return bytes_of_chunks_; }
   // Returns the box of the variable that has this block.
   [[nodiscard]] io::NetcdfBox box_of(const FieldBlock& block) const;
 
@@ -56,6 +62,7 @@ class FieldBlocks {
   std::size_t length_ = 1;
   // The number of fields for each of these indices.
   std::size_t of_place_ = 1;
+  std::uint64_t bytes_of_chunks_ = 0;
 };
 
 }  // namespace rondel::formats

@@ -104,6 +104,10 @@ const FieldSet& FieldFile::fields() const {
   return content_->slices ? content_->slices->fields() : content_->fields;
 }
 
+void FieldFile::keep_chunks(std::size_t bytes) const {
+  if (content_->slices) content_->slices->keep_chunks(bytes);
+}
+
 void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out,
                      const Execution& execution) const {
   if (content_->slices) {

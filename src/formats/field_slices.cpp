@@ -507,6 +507,11 @@ void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> o
   }
 }
 
+void FieldSlices::keep_chunks(std::size_t bytes) {
+  bytes_kept_ = bytes;
+  for (const SlicedVariable& source : sources_) file_.keep_chunks(*source.variable, bytes);
+}
+
 void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t first_point,
                               std::span<double> out) const {
   const SlicedVariable& source = sources_[array];
@@ -525,8 +530,8 @@ void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t 
   std::copy_n(whole_.begin() + static_cast<std::ptrdiff_t>(first_point), out.size(), out.begin());
 }
 
-// Fields that are contiguous in the file are read directly; others in blocks, of which the last one
-// is kept.
+// Fields that are contiguous in the file, or whose chunks are kept, are read directly; others in
+// blocks, of which the last one is kept.
 void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
                                   std::span<double> out, unsigned threads) const {
   const std::size_t n = source.num_points;
@@ -535,8 +540,11 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
     unpack(source, out, 0, threads);
     return;
   }
+  const bool are_kept =
+      file_.has_chunks(*source.variable) && source.blocks.bytes_of_chunks() <= bytes_kept_;
   while (!out.empty()) {
-    const FieldBlock block = source.blocks.block_of(first);
+    const FieldBlock next = source.blocks.part_from(first, are_kept ? out.size() / n : 0);
+    const FieldBlock block = next.count > 0 ? next : source.blocks.block_of(first);
     const std::size_t wanted = std::min(out.size() / n, block.first + block.count - first);
     const std::span<double> part = out.first(wanted * n);
     if (wanted == block.count) {

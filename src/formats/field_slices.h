@@ -33,6 +33,8 @@ class FieldSlices {
 
   // Returns the arrays without their values; only coordinates along axes have values here.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
+  // Sets how many bytes of chunks are kept for each array, like FieldFile::keep_chunks().
+  void keep_chunks(std::size_t bytes);
   // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
   void read(std::size_t array, std::size_t first, std::span<double> out, unsigned threads) const;
   // Reads points `first_point` ... of one field, like FieldFile::read_points().
@@ -105,6 +107,7 @@ class FieldSlices {
   FieldDimensionFinder layouts_;
   FieldSet fields_;
   std::vector<SlicedVariable> sources_;  // by array
+  std::size_t bytes_kept_ = 0;           // of chunks, for each array
   // The values of the last block of which a part was read.
   mutable std::vector<double> block_;
   mutable const SlicedVariable* source_of_block_ = nullptr;

@@ -110,6 +110,9 @@ RegridPlan plan_to_carry(const RegridTask& task) {
         (task.memory - weights) /
         std::max<std::uint64_t>(plan.reads_ahead ? of_field_and_next : of_field, 1);
     plan.fields_at_once = std::clamp<std::uint64_t>(fitting, 1, of_slice);
+    const std::uint64_t of_fields =
+        plan.fields_at_once * (plan.reads_ahead ? of_field_and_next : of_field);
+    plan.spare = task.memory - weights - of_fields;
     return plan;
   }
   if (!task.has_tiles) refuse_memory(task, weights + of_field);

@@ -69,6 +69,7 @@ struct RegridPlan {
   bool reads_ahead = false;  // whether the next fields are read meanwhile
   // Whether each tile is written when it is computed, since one field is too large to be kept.
   bool is_streamed = false;
+  std::uint64_t spare = 0;  // bytes of the memory that are not in use, where weights are whole
 };
 
 // Returns the plan with the least work. Throws InvalidInput if no plan keeps within the memory,

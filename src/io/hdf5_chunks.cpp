@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <mutex>
 #include <type_traits>
 
 #include "io/array_rows.h"
@@ -226,12 +227,26 @@ bool Hdf5Chunks::is_begin(std::span<const std::size_t> start) const {
   return true;
 }
 
-bool Hdf5Chunks::is_chunk(const NetcdfBox& box) const {
-  if (!is_begin(box.start)) return false;
+bool Hdf5Chunks::is_in_chunk(const NetcdfBox& box) const {
   for (std::size_t d = 0; d < shape_.size(); ++d) {
-    if (box.count[d] != std::min(chunk_[d], shape_[d] - box.start[d])) return false;
+    if (box.start[d] % chunk_[d] + box.count[d] > chunk_[d]) return false;
   }
   return true;
+}
+
+bool Hdf5Chunks::has_first(const NetcdfBox& box) const { return is_begin(box.start); }
+
+bool Hdf5Chunks::has_last(const NetcdfBox& box) const {
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    const std::uint64_t begin = box.start[d] - box.start[d] % chunk_[d];
+    if (box.start[d] + box.count[d] < std::min(begin + chunk_[d], shape_[d])) return false;
+  }
+  return true;
+}
+
+void Hdf5Chunks::set_room(std::size_t bytes) const {
+  const std::scoped_lock guard(lock_);
+  room_ = bytes;
 }
 
 std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {
@@ -242,43 +257,69 @@ std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {
   return number;
 }
 
-LargeVector<unsigned char> Hdf5Chunks::values_of(const FileBytes& file, const StoredChunk& place,
-                                                 bool& is_shuffled) const {
+Hdf5Chunks::ChunkValues Hdf5Chunks::values_of(const FileBytes& file,
+                                              const StoredChunk& place) const {
   const auto is_applied = [&](std::size_t f) { return (place.filters_left_out >> f & 1U) == 0; };
   const std::size_t wanted = values_per_chunk_ * value_size_;
   const std::uint64_t end = file.claimed_size();
   if (place.size > end || place.offset > end - place.size) return {};
-  LargeVector<unsigned char> bytes(static_cast<std::size_t>(place.size));
-  file.read_at(place.offset, reinterpret_cast<char*>(bytes.data()), bytes.size());
-  is_shuffled = false;
+  ChunkValues values;
+  values.bytes.resize(static_cast<std::size_t>(place.size));
+  file.read_at(place.offset, reinterpret_cast<char*>(values.bytes.data()), values.bytes.size());
   for (std::size_t f = filters_.size(); f-- > 0;) {
     if (!is_applied(f)) continue;
     if (filters_[f] == Filter::shuffle) {
-      is_shuffled = true;
+      values.are_shuffled = true;
       continue;
     }
-    LargeVector<unsigned char> values(wanted);
-    if (!zlib_uncompress(bytes, values)) return {};
-    bytes.swap(values);
+    LargeVector<unsigned char> uncompressed(wanted);
+    if (!zlib_uncompress(values.bytes, uncompressed)) return {};
+    values.bytes.swap(uncompressed);
   }
-  if (bytes.size() != wanted) return {};
-  return bytes;
+  if (values.bytes.size() != wanted) return {};
+  return values;
+}
+
+std::shared_ptr<const Hdf5Chunks::ChunkValues> Hdf5Chunks::chunk_of(const FileBytes& file,
+                                                                    const NetcdfBox& box) const {
+  const std::size_t number = number_of(box.start);
+  const std::size_t size = values_per_chunk_ * value_size_;
+  const bool is_last = has_last(box);
+  if (!has_first(box)) {
+    const std::scoped_lock guard(lock_);
+    const auto known = kept_.find(number);
+    if (known != kept_.end()) {
+      const std::shared_ptr<const ChunkValues> values = known->second;
+      if (is_last) {
+        kept_.erase(known);
+        room_ += size;
+      }
+      return values;
+    }
+  }
+  auto values = std::make_shared<const ChunkValues>(values_of(file, places_[number]));
+  if (is_last || values->bytes.empty()) return values;
+  const std::scoped_lock guard(lock_);
+  if (room_ >= size && kept_.try_emplace(number, values).second) room_ -= size;
+  return values;
 }
 
 bool Hdf5Chunks::read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const {
-  bool is_shuffled = false;
-  const LargeVector<unsigned char> values =
-      values_of(file, places_[number_of(box.start)], is_shuffled);
-  if (values.empty()) return false;
-  const ByteOrder order{is_shuffled ? 1 : value_size_, is_shuffled ? values_per_chunk_ : 1,
-                        is_big_endian_};
+  const std::shared_ptr<const ChunkValues> values = chunk_of(file, box);
+  if (values->bytes.empty()) return false;
+  const ByteOrder order{values->are_shuffled ? 1 : value_size_,
+                        values->are_shuffled ? values_per_chunk_ : 1, is_big_endian_};
   const RowCopier copy = row_copier(type_);
   const BoxLengths dimensions = own_order(shape_.size());
-  for_each_row(box.count, dimensions, steps_of(chunk_), out.steps,
-               [&](std::size_t from, std::size_t to) {
-                 copy(values.data() + from * order.value, order, box.count.back(), out.begin + to,
-                      out.steps.back());
-               });
+  const BoxLengths steps = steps_of(chunk_);
+  std::size_t first = 0;
+  for (std::size_t d = 0; d < shape_.size(); ++d) {
+    first += static_cast<std::size_t>(box.start[d] % chunk_[d]) * steps[d];
+  }
+  for_each_row(box.count, dimensions, steps, out.steps, [&](std::size_t from, std::size_t to) {
+    copy(values->bytes.data() + (first + from) * order.value, order, box.count.back(),
+         out.begin + to, out.steps.back());
+  });
   return true;
 }
 

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,6 +20,7 @@
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "system/large_arrays.h"
+#include "system/mutex.h"
 
 namespace rondel::io {
 
@@ -33,15 +35,23 @@ class Hdf5Chunks {
 
   // Returns the number of values of a chunk.
   [[nodiscard]] std::size_t num_values() const { return values_per_chunk_; }
-  // True if a chunk begins with these indices.
-  [[nodiscard]] bool is_begin(std::span<const std::size_t> start) const;
-  // True if a box is one chunk, which may go beyond the ends of the variable.
-  [[nodiscard]] bool is_chunk(const NetcdfBox& box) const;
-  // Reads the chunk of a box. Returns false if it is damaged; `out` may have been written then. Any
-  // number of threads may call it. Throws FileError if reading fails.
+  // True if a box has no values of several chunks.
+  [[nodiscard]] bool is_in_chunk(const NetcdfBox& box) const;
+  // Reads a box, all or a part of a chunk. Returns false if the chunk is damaged; `out` may have been
+  // written then. Any number of threads may call it. Throws FileError if reading fails.
+  //
+  // A chunk of which a part is read, and not its end, is kept uncompressed if there is room: chunks
+  // that hold many times are read some times at a time.
   [[nodiscard]] bool read(const FileBytes& file, const NetcdfBox& box, const BoxPlace& out) const;
+  // Sets the room for chunks that are kept, in bytes; it was none.
+  void set_room(std::size_t bytes) const;
 
  private:
+  // The values of a chunk as they are in memory of the file's machine; empty if they are damaged.
+  struct ChunkValues {
+    LargeVector<unsigned char> bytes;
+    bool are_shuffled = false;
+  };
   struct StoredChunk {
     std::uint64_t offset;
     std::uint64_t size;
@@ -60,11 +70,17 @@ class Hdf5Chunks {
   [[nodiscard]] std::uint64_t num_along(std::size_t dimension) const {
     return (shape_[dimension] + chunk_[dimension] - 1) / chunk_[dimension];
   }
+  // True if a chunk begins with these indices.
+  [[nodiscard]] bool is_begin(std::span<const std::size_t> start) const;
+  // Returns the number of the chunk that has these indices.
   [[nodiscard]] std::size_t number_of(std::span<const std::size_t> start) const;
-  // Returns the values of a chunk as they are in memory of the file's machine, shuffled or not; an
-  // empty vector if they are damaged.
-  LargeVector<unsigned char> values_of(const FileBytes& file, const StoredChunk& place,
-                                       bool& is_shuffled) const;
+  // True if a box has the first value of its chunk, or the last one.
+  [[nodiscard]] bool has_first(const NetcdfBox& box) const;
+  [[nodiscard]] bool has_last(const NetcdfBox& box) const;
+  [[nodiscard]] ChunkValues values_of(const FileBytes& file, const StoredChunk& place) const;
+  // Returns the values of the chunk of a box, which are kept or read.
+  [[nodiscard]] std::shared_ptr<const ChunkValues> chunk_of(const FileBytes& file,
+                                                            const NetcdfBox& box) const;
 
   std::vector<std::uint64_t> shape_;
   std::vector<std::uint64_t> chunk_;  // lengths
@@ -74,6 +90,10 @@ class Hdf5Chunks {
   std::size_t value_size_ = 0;
   std::size_t values_per_chunk_ = 1;
   bool is_big_endian_ = false;
+  mutable system::Mutex lock_;  // of what follows
+  mutable std::map<std::size_t, std::shared_ptr<const ChunkValues>>
+      kept_;  // by number of the chunk
+  mutable std::size_t room_ = 0;
 };
 
 }  // namespace rondel::io

@@ -44,21 +44,24 @@ BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint6
 // The pieces of a box, numbered with the last dimension varying fastest.
 class BoxPieces {
  public:
-  BoxPieces(const NetcdfBox& box, BoxLengths lengths) : box_(box), lengths_(std::move(lengths)) {
+  // The first piece along each dimension is shorter by `skipped`, as a part of a chunk may be.
+  BoxPieces(const NetcdfBox& box, BoxLengths lengths, BoxLengths skipped)
+      : box_(box), lengths_(std::move(lengths)), skipped_(std::move(skipped)) {
     for (std::size_t d = 0; d < lengths_.size(); ++d) {
-      along_.push_back((box.count[d] + lengths_[d] - 1) / lengths_[d]);
+      along_.push_back((skipped_[d] + box.count[d] + lengths_[d] - 1) / lengths_[d]);
       size_ *= along_[d];
     }
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] NetcdfBox piece(std::size_t number) const {
-    NetcdfBox piece{box_.start, lengths_};
+    NetcdfBox piece{box_.start, box_.count};
     for (std::size_t d = lengths_.size(); d-- > 0;) {
-      const std::size_t begin = number % along_[d] * lengths_[d];
+      const std::size_t place = number % along_[d] * lengths_[d];
       number /= along_[d];
+      const std::size_t begin = place - std::min(place, skipped_[d]);
       piece.start[d] += begin;
-      piece.count[d] = std::min(lengths_[d], box_.count[d] - begin);
+      piece.count[d] = std::min(place + lengths_[d] - skipped_[d], box_.count[d]) - begin;
     }
     return piece;
   }
@@ -66,9 +69,25 @@ class BoxPieces {
  private:
   const NetcdfBox& box_;
   BoxLengths lengths_;
+  BoxLengths skipped_;
   BoxLengths along_;  // the number of pieces along each dimension
   std::size_t size_ = 1;
 };
+
+// Returns the pieces in which a box is read: parts of chunks where these are read one by one, or
+// else what fits.
+BoxPieces pieces_of(const NetcdfReader& file, const VariableInFile& variable, const NetcdfBox& box,
+                    std::size_t max_per_piece) {
+  const std::vector<std::uint64_t> chunk = file.chunk_of(variable);
+  BoxLengths skipped(chunk.size(), 0);
+  if (!file.has_chunks(variable)) {
+    return {box, lengths_of_pieces(box.count, chunk, max_per_piece), std::move(skipped)};
+  }
+  for (std::size_t d = 0; d < chunk.size(); ++d) {
+    skipped[d] = static_cast<std::size_t>(box.start[d] % chunk[d]);
+  }
+  return {box, {chunk.begin(), chunk.end()}, std::move(skipped)};
+}
 
 }  // namespace
 
@@ -85,8 +104,7 @@ void read_in_order(const NetcdfReader& file, const VariableInFile& variable, con
   const BoxLengths steps_in_order = steps_of(ordered);
   BoxLengths out_steps(rank);
   for (std::size_t w = 0; w < rank; ++w) out_steps[order[w]] = steps_in_order[w];
-  const std::size_t most = file.begins_with_chunk(variable, box) ? 1 : max_per_piece;
-  const BoxPieces pieces(box, lengths_of_pieces(box.count, file.chunk_of(variable), most));
+  const BoxPieces pieces = pieces_of(file, variable, box, max_per_piece);
   const auto read = [&](const NetcdfBox& piece) {
     double* begin = out.data();
     for (std::size_t d = 0; d < rank; ++d) begin += (piece.start[d] - box.start[d]) * out_steps[d];

@@ -268,16 +268,21 @@ const Hdf5Chunks* NetcdfReader::chunks_of(const VariableInFile& variable) const 
   return netcdf4_->chunks(variable);
 }
 
-bool NetcdfReader::begins_with_chunk(const VariableInFile& variable, const NetcdfBox& box) const {
+bool NetcdfReader::has_chunks(const VariableInFile& variable) const {
   constexpr std::size_t least_values = 1024;
   const Hdf5Chunks* const chunks = chunks_of(variable);
-  return chunks != nullptr && chunks->num_values() >= least_values && chunks->is_begin(box.start);
+  return chunks != nullptr && chunks->num_values() >= least_values;
+}
+
+void NetcdfReader::keep_chunks(const VariableInFile& variable, std::size_t bytes) const {
+  const Hdf5Chunks* const chunks = chunks_of(variable);
+  if (chunks != nullptr) chunks->set_room(bytes);
 }
 
 bool NetcdfReader::read_chunk(const VariableInFile& variable, const NetcdfBox& box,
                               const BoxPlace& out) const {
   const Hdf5Chunks* const chunks = chunks_of(variable);
-  return chunks != nullptr && chunks->is_chunk(box) && chunks->read(*file_, box, out);
+  return chunks != nullptr && chunks->is_in_chunk(box) && chunks->read(*file_, box, out);
 }
 
 void NetcdfReader::require_numbers(const VariableInFile& variable) {

@@ -115,11 +115,13 @@ class NetcdfReader {
   // Returns the lengths of the compressed chunks along the variable's dimensions; 1 if there are
   // none.
   [[nodiscard]] std::vector<std::uint64_t> chunk_of(const VariableInFile& variable) const;
-  // True if read_chunk() reads the chunks at the begin of this box, and one is worth a call.
-  [[nodiscard]] bool begins_with_chunk(const VariableInFile& variable, const NetcdfBox& box) const;
-  // Reads a whole chunk of a compressed variable beside other threads that do the same. Returns false
-  // if the box is no chunk, or only netCDF-C can read it; then `out` may have been written, and
-  // read_box() reads the values or throws.
+  // True if read_chunk() reads the chunks of a variable, and one is worth a call.
+  [[nodiscard]] bool has_chunks(const VariableInFile& variable) const;
+  // Sets how many bytes of chunks read_chunk() may keep, of which it has read a part; it was none.
+  void keep_chunks(const VariableInFile& variable, std::size_t bytes) const;
+  // Reads a chunk of a compressed variable, or a part of one, beside other threads that do the same.
+  // Returns false if the box has values of several chunks, or only netCDF-C can read it; then `out`
+  // may have been written, and read_box() reads the values or throws.
   [[nodiscard]] bool read_chunk(const VariableInFile& variable, const NetcdfBox& box,
                                 const BoxPlace& out) const;
   // Returns all values as integers. Throws BadValue if they are a text, floating-point numbers, or

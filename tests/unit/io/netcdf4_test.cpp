@@ -174,9 +174,8 @@ TEST_F(netcdf4, has_chunks_that_are_read_without_the_library) {
   const NetcdfReader reader(on_disk);
   const io::VariableInFile& v = reader.require("v");
   const std::size_t of_chunk = 65536 / num_columns;
-  EXPECT_FALSE(reader.begins_with_chunk(v, {{1, 0}, {of_chunk, num_columns}}));
-  EXPECT_FALSE(NetcdfReader(bytes_).begins_with_chunk(v, {{0, 0}, {of_chunk, num_columns}}));
-  if (!reader.begins_with_chunk(v, {{0, 0}, {of_chunk, num_columns}})) {
+  EXPECT_FALSE(NetcdfReader(bytes_).has_chunks(v));
+  if (!reader.has_chunks(v)) {
     GTEST_SKIP() << "HDF5 is too old";
   }
   Doubles found(values_.size(), -1);
@@ -185,13 +184,32 @@ TEST_F(netcdf4, has_chunks_that_are_read_without_the_library) {
     return reader.read_chunk(v, {{start, 0}, {count, num_columns}},
                              {found.data() + start * num_columns, steps});
   };
-  EXPECT_FALSE(read(0, of_chunk - 1));
   EXPECT_FALSE(read(1, of_chunk));
+  EXPECT_FALSE(read(of_chunk - 1, 2));
   EXPECT_EQ(found, Doubles(values_.size(), -1));
   EXPECT_TRUE(read(of_chunk, num_rows - of_chunk));  // the last one, which goes beyond the rows
   EXPECT_EQ(found[of_chunk * num_columns - 1], -1);
   EXPECT_TRUE(read(0, of_chunk));
   EXPECT_EQ(found, values_);
+  // Parts of chunks, which are kept if there is room; also in another order, and twice.
+  for (const std::size_t room : {std::size_t{0}, std::size_t{1} << 20U}) {
+    reader.keep_chunks(v, room);
+    for (const std::size_t step : {std::size_t{1}, std::size_t{7}, of_chunk / 2 + 1}) {
+      found.assign(values_.size(), -1);
+      for (const bool is_second : {false, true}) {
+        for (std::size_t start = 0; start < num_rows; start += step) {
+          const std::size_t end = std::min(start + step, num_rows);
+          if (start / of_chunk != (end - 1) / of_chunk) {
+            const std::size_t middle = end - end % of_chunk;
+            EXPECT_TRUE(read(middle, end - middle) && read(start, middle - start));
+          } else {
+            EXPECT_TRUE(read(start, end - start)) << is_second;
+          }
+        }
+        EXPECT_EQ(found, values_) << room << ' ' << step;
+      }
+    }
+  }
   for (const unsigned threads : {1U, 2U, 5U}) {
     Doubles run(values_.size() - 7);
     io::read_run(reader, v, 7, run, threads);
