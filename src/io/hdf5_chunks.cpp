@@ -246,7 +246,7 @@ bool Hdf5Chunks::has_last(const NetcdfBox& box) const {
 
 void Hdf5Chunks::set_room(std::size_t bytes) const {
   const std::scoped_lock guard(lock_);
-  room_ = bytes;
+  room_ = bytes - std::min(bytes, kept_.size() * values_per_chunk_ * value_size_);
 }
 
 std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {

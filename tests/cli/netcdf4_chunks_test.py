@@ -125,6 +125,21 @@ class Chunks(unittest.TestCase):
             with self.subTest(library=environment.get("RONDEL_NETCDF"), threads=threads):
                 self.compare("all.nc", "--threads", threads, environment=environment)
 
+    def test_chunks_of_many_times_are_read_a_few_times_at_a_time(self):
+        generator = np.random.default_rng(5)
+        with netCDF4.Dataset(self.folder / "many.nc", "w") as data:
+            add_grid(data, 50)
+            for number, (letter, form) in enumerate(
+                itertools.product(("f4", "i2", "f8"), ((50, 36, 72), (23, 20, 33), (7, 36, 5), (1, 36, 72)))
+            ):
+                field = data.createVariable(
+                    f"v{number}", letter, tuple(LENGTHS), zlib=True, chunksizes=form
+                )
+                field[:] = generator.integers(0, 100, (50, 36, 72))
+        for memory, threads in itertools.product(("2M", "2300K", "3M", "6M", "2G"), ("1", "2")):
+            with self.subTest(memory=memory, threads=threads):
+                self.compare("many.nc", "--memory", memory, "--threads", threads)
+
     def test_numbers_of_fewer_bits_than_their_bytes(self):
         """HDF5 has integers of any number of bits and floats with any exponent, which netCDF4-python cannot make."""
         hdf5 = ctypes.CDLL(str(LIBRARIES[0]))
