@@ -152,7 +152,9 @@ bool is_table(const FileName& file) {
 // such as a time, with a value for each source.
 class ValuesAtSources {
  public:
-  explicit ValuesAtSources(std::unique_ptr<FieldFile> file) : file_(std::move(file)) {}
+  explicit ValuesAtSources(std::unique_ptr<FieldFile> file) : file_(std::move(file)) {
+    file_->keep_chunks(usual_kept_chunks);
+  }
   // Takes the columns of a table, whose rows are the sources.
   ValuesAtSources(const SiteTable& table, const std::vector<std::string>& names) {
     own_.num_points = table.sites.size();

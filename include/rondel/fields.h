@@ -140,6 +140,9 @@ struct FieldExtras {
   bool has_positions = true;
 };
 
+/// A room for FieldFile::keep_chunks() in bytes, in which chunks of 73 times on 0.25 degrees fit.
+inline constexpr std::size_t usual_kept_chunks = std::size_t{512} << 20U;
+
 /// A file of fields whose values are read in slices, so that it may be larger than the memory if it
 /// is netCDF. Files of other formats are read whole.
 class FieldFile {

@@ -278,8 +278,8 @@ class RegridJob {
       task.has_whole_fields = true;
     }
     plan_ = plan_of(task);
-    constexpr std::uint64_t most_kept = std::uint64_t{512} << 20U;  // bytes of uncompressed chunks
-    fields_->keep_chunks(static_cast<std::size_t>(std::min(plan_.spare / 2, most_kept)));
+    fields_->keep_chunks(
+        static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
     // for each group, which takes as long as some fields do.
     constexpr std::size_t fields_to_lose = 16;
