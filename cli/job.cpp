@@ -132,9 +132,11 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
     state_->line.clear();
     const bool is_table = !is_geojson(file);
     std::fprintf(
-        stderr, "rondel: %s: left out %s without a place\n", table.name.c_str(),
+        stderr, "rondel: %s: left out %s without a place; sites are numbered without %s\n",
+        table.name.c_str(),
         count(table.num_unlocated, is_table ? "row" : "feature", is_table ? "rows" : "features")
-            .c_str());
+            .c_str(),
+        table.num_unlocated > 1 ? "them" : "it");
   }
   return sites;
 }

@@ -70,7 +70,10 @@ OtherFacts facts_of(const FeatureTable& table, const Seconds& seconds) {
   if (located < size) text += "without a place: " + std::to_string(size - located) + '\n';
   text += line_of_columns(table.facts.columns);
   text += "commands that take it: overlay, relate, buffer, simplify, triangulate";
-  if (kinds.polygons > 0) text += ", repair, regrid and remap as a target, regions --clip";
+  if (kinds.polygons > 0) text += ", repair";
+  if (kinds.polygons > 0 && kinds.points + kinds.lines == 0) {
+    text += ", regrid and remap as a target, regions --clip";
+  }
   return {text_of_json(json), text + '\n'};
 }
 

@@ -32,15 +32,21 @@ Weights bilinear_from(const NetcdfSites& grid, const Targets& targets) {
 }
 
 Weights given_to_nearest(Job& job, const NetcdfSites& grid, const Targets& targets) {
-  const Triangulation triangulation = job.triangulate(targets.table);
-  std::vector<Index> every_target(targets.table.sites.size());
-  for (std::size_t t = 0; t < every_target.size(); ++t) every_target[t] = static_cast<Index>(t);
+  const std::size_t num_targets = targets.table.sites.size();
+  const std::vector<std::int32_t>& mask = targets.side.mask;
+  std::vector<bool> is_taken(num_targets, true);
+  std::vector<Index> taken;
+  for (std::size_t t = 0; t < num_targets; ++t) {
+    is_taken[t] = mask.empty() || mask[t] != 0;
+    if (is_taken[t]) taken.push_back(static_cast<Index>(t));
+  }
+  const SiteTable kept = targets.table.selection(is_taken);
+  const Triangulation triangulation = job.triangulate(kept);
   const SiteTable sources = grid.table.selection(grid.unmasked());
   const Weights weights = with_places(sources, [&] {
     return nearest_d2s_weights(Interpolator(triangulation), sources.sites, job.execution());
   });
-  return renumbered(weights, every_target, every_target.size(), unmasked_sites(grid),
-                    grid.table.sites.size());
+  return renumbered(weights, taken, num_targets, unmasked_sites(grid), grid.table.sites.size());
 }
 
 Weights in_native_cells(const Job& job, const FileName& file, const NetcdfSites& grid,

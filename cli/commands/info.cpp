@@ -200,9 +200,12 @@ std::string name_of_values(const SiteTable& table, const CommonOptions& common) 
   const std::string_view given[] = {read.lon, read.lat, read.x, read.y, read.z, read.radius};
   const bool has_coordinates = !is_netcdf_file(common.source());
   for (const Column& column : table.columns) {
-    const bool is_coordinate =
-        has_coordinates && (std::ranges::count(coordinates, column.name) > 0 ||
-                            std::ranges::count(given, column.name) > 0);
+    std::string name = column.name;
+    std::ranges::transform(name, name.begin(), [](unsigned char c) {
+      return c < 0x80 ? static_cast<char>(std::tolower(c)) : static_cast<char>(c);
+    });
+    const bool is_coordinate = has_coordinates && (std::ranges::count(coordinates, name) > 0 ||
+                                                   std::ranges::count(given, column.name) > 0);
     if (!is_coordinate && holds_numbers(column)) return column.name;
   }
   return {};
@@ -304,9 +307,8 @@ ExitStatus run_info_of_triangles(const CommonOptions& common) {
 ExitStatus run_info_of_grid(const CommonOptions& common) {
   Job job(common);
   const NamedGrid grid = grid_of(common.input);
-  const Json json = {{"cells", grid.num_cells()},
-                     {"grid", grid.shape()},
-                     {"covers_sphere", grid.covers_sphere()}};
+  const Json json = {
+      {"cells", grid.num_cells()}, {"grid", grid.shape()}, {"covers_sphere", grid.covers_sphere()}};
   std::string text = common.input + ": a grid of " + count(grid.num_cells(), "cell", "cells");
   for (std::size_t d = 0; grid.shape().size() > 1 && d < grid.shape().size(); ++d) {
     text += (d == 0 ? ", " : " x ") + std::to_string(grid.shape()[d]);
@@ -390,8 +392,10 @@ Command add_info_command(CLI::App& tool) {
       "the sphere, the columns, and the commands that take the file. Of triangles (.msh .14 .gr3 "
       ".ll .2dm, a folder of FESOM):\n"
       "the numbers of nodes, triangles and segments of the border, bounds and depths. Of\n"
-      "features with lines and polygons (.geojson) and of weights (.nc .npz): their numbers. Of netCDF\n"
-      "also the fields, the lengths of their dimensions, and what would be left out. Of the name of a\n"
+      "features with lines and polygons (.geojson) and of weights (.nc .npz): their numbers. Of "
+      "netCDF\n"
+      "also the fields, the lengths of their dimensions, and what would be left out. Of the name "
+      "of a\n"
       "grid: its cells.\n\n"
       "Example:\n"
       "  rondel info stations.csv\n"

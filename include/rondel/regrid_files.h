@@ -58,7 +58,8 @@ struct RegridFileOptions {
   /// Whether values of conservative_2nd are limited to the bounds of their sources
   /// (apply_limited()).
   bool is_limited = false;
-  /// The share of a target that may lack values: that no source covers, or whose sources have none.
+  /// The share of a target that no source may cover, and of its covered part in which sources may
+  /// have no values.
   /// With 0 any lack is too much, with 1 any value is enough. At the limit, up to 1e-9, a target has a
   /// value (may_be_missing()).
   double max_missing = 0.5;

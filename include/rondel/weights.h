@@ -48,6 +48,10 @@ RONDEL_API std::uint64_t point_set_hash(std::span<const Point> points);
 /// \param all  the whole, in the same unit
 RONDEL_API bool may_be_missing(double missing, double all, double max_missing) noexcept;
 
+/// True if a part is larger than another one by more than rounding, 1e-9 of it: equal areas differ in
+/// their last digits.
+RONDEL_API bool is_larger_share(double a, double b) noexcept;
+
 /// Returns 1 for each target that is covered, and of which the rest may be missing, and 0 for others.
 /// \param fractions  the share of each target that is covered
 RONDEL_API std::vector<std::int32_t> covered_enough(std::span<const double> fractions,

@@ -156,27 +156,23 @@ class CoordinateSearch {
   }
 
   // Grids that are not along axes may have nominal axes beside their longitudes and latitudes of two
-  // dimensions, which are north of a tripolar grid's cap somewhere else. Where both say equally well
-  // what they are, and the axes have no bounds, the pair of two dimensions gets the rank of axes in
-  // their place, if it has a name that models give to places: a field may be of degrees, too.
+  // dimensions, which are somewhere else, as north of a tripolar grid's cap. Where the axes have no
+  // bounds, a pair of two dimensions gets their rank if it has a name that models give to places: a
+  // field may be of degrees, too.
   void prefer_true_places(std::vector<CoordinatePair>& all) const {
-    const auto known_by = [&](const CoordinatePair& pair) {
-      return std::min(evidence_of(pair.lon, CoordinateKind::lon),
-                      evidence_of(pair.lat, CoordinateKind::lat));
-    };
     for (CoordinatePair& axes : all) {
       if (!axes.are_axes || (axes.lon_bounds != none && axes.lat_bounds != none)) continue;
       const std::vector<std::string> dimensions = {variables_[axes.lat].dimensions[0],
                                                    variables_[axes.lon].dimensions[0]};
       bool has_rival = false;
       for (CoordinatePair& pair : all) {
-        if (pair.are_axes || known_by(pair) < known_by(axes) ||
+        if (pair.are_axes ||
             !std::ranges::is_permutation(variables_[pair.lon].dimensions, dimensions) ||
             !formats::is_name_of_places(variables_[pair.lon].name, CoordinateKind::lon) ||
             !formats::is_name_of_places(variables_[pair.lat].name, CoordinateKind::lat)) {
           continue;
         }
-        pair.rank |= rank_of_axes;
+        pair.rank |= axes.rank & (rank_of_attributes | rank_of_standard_names | rank_of_axes);
         has_rival = true;
       }
       if (has_rival) axes.rank &= ~rank_of_axes;

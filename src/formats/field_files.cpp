@@ -80,6 +80,10 @@ FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
                      const FieldExtras& extras)
     : content_(std::make_unique<OpenFields>(file)) {
   OpenFields& content = *content_;
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    if (std::ranges::count(names.first(k), names[k]) == 0) continue;
+    throw FileError(content.bytes.name() + ": " + io::in_quotes(names[k]) + " is named twice");
+  }
   const formats::FieldsToRead wanted{names, num_points, options, shape, places, extras};
   if (is_netcdf_file(file, content.bytes)) {
     io::in_file(content.bytes.name(), [&] {

@@ -72,9 +72,24 @@ std::vector<NumericAttribute> kept_numbers(std::span<const io::NetcdfAttribute> 
   return kept;
 }
 
-// True if floats hold the values of a variable: it has floats, or small integers.
-bool is_of_floats(io::NetcdfType type) {
-  return io::size_of(type) < 4 || type == io::NetcdfType::float32;
+// Returns a factor of packed numbers; `otherwise` if it is not there, or no number.
+double packing_of(const io::NetcdfVariable& variable, std::string_view name, double otherwise) {
+  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
+  return attribute == nullptr || attribute->numbers.size() != 1 ? otherwise
+                                                                : attribute->numbers.front();
+}
+
+// True if floats hold the values of a variable: it has floats, or small integers that floats still
+// tell apart when they are unpacked.
+bool is_of_floats(const io::NetcdfVariable& variable) {
+  if (variable.type == io::NetcdfType::float32) return true;
+  if (io::size_of(variable.type) >= 4) return false;
+  const double step = std::abs(packing_of(variable, "scale_factor", 1));
+  const double most = std::ldexp(step, static_cast<int>(8 * io::size_of(variable.type))) +
+                      std::abs(packing_of(variable, "add_offset", 0));
+  constexpr double precision = 0x1p-24;
+  return most <= std::numeric_limits<float>::max() && step >= precision * most &&
+         step >= std::numeric_limits<float>::min();
 }
 
 // The most values or characters of a variable that is kept beside the fields.
@@ -109,7 +124,7 @@ FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& vari
   }
   array.attributes = kept_attributes(variable.attributes);
   array.numbers = kept_numbers(variable.attributes, at_points);
-  array.is_single = is_of_floats(variable.type);
+  array.is_single = is_of_floats(variable);
   return array;
 }
 

@@ -132,6 +132,7 @@ class TableSink : public FieldSink {
     const std::size_t n = job_.fields.num_points;
     std::string text = header_line(job_, separator_);
     for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t begin = text.size();
       bool is_first = true;
       const auto separate = [&] {
         if (!is_first) text += separator_;
@@ -151,6 +152,8 @@ class TableSink : public FieldSink {
         separate();
         if (!std::isnan(values_[at])) io::append_number(text, values_[at]);
       }
+      // A line that consists of one empty field would be an empty line, which readers skip.
+      if (text.size() == begin) text += "\"\"";
       text += '\n';
       file_.write(text);
       text.clear();

@@ -192,6 +192,10 @@ void require_application(const Weights& weights, std::span<const double> in,
   }
 }
 
+// Areas of pieces are exact to some 1e-13 of their cells; no two shares that are meant to differ are
+// so close.
+constexpr double rounding_of_shares = 1e-9;
+
 // A value, and the part of a row's weights that has it.
 struct ShareOfValue {
   double value;
@@ -220,12 +224,13 @@ double value_of_largest_share(const Weights& weights, std::size_t row, std::span
     }
   }
   if (shares.empty() || !may_be_missing(lacking, all, options.max_missing)) return options.fill;
-  return std::ranges::max_element(shares,
-                                  [](const ShareOfValue& a, const ShareOfValue& b) {
-                                    return a.weight != b.weight ? a.weight < b.weight
-                                                                : a.value > b.value;
-                                  })
-      ->value;
+  // Equal areas of cells differ by rounding.
+  const double largest = std::ranges::max(shares, {}, &ShareOfValue::weight).weight;
+  double found = std::numeric_limits<double>::infinity();
+  for (const ShareOfValue& share : shares) {
+    if (!is_larger_share(largest, share.weight)) found = std::min(found, share.value);
+  }
+  return found;
 }
 
 // Throws InvalidInput for a number that is not below `limit`.
@@ -257,10 +262,10 @@ std::uint64_t point_set_hash(std::span<const Point> points) {
 }
 
 bool may_be_missing(double missing, double all, double max_missing) noexcept {
-  // Areas of pieces are exact to some 1e-13 of their cells; no two shares that are meant to differ are so close.
-  constexpr double rounding = 1e-9;
-  return missing <= (max_missing + rounding) * all;
+  return missing <= (max_missing + rounding_of_shares) * all;
 }
+
+bool is_larger_share(double a, double b) noexcept { return a > b * (1 + rounding_of_shares); }
 
 std::vector<std::int32_t> covered_enough(std::span<const double> fractions, double max_missing) {
   std::vector<std::int32_t> covered;

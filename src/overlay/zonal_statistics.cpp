@@ -117,13 +117,16 @@ double variety_of(std::span<const ZonalValue> values) {
   return number;
 }
 
-// Returns the first value whose weight is above, or with `is_least` below, those of all others.
+// Returns the first value whose weight is above, or with `is_least` below, those of all others by more
+// than rounding.
 double extreme_of(std::span<const ZonalValue> values, bool is_least) {
   double found = no_statistic;
   double found_weight = 0;
   bool is_first = true;
   for_each_different(values, [&](double value, double weight) {
-    if (!is_first && (is_least ? weight >= found_weight : weight <= found_weight)) return;
+    const bool is_better =
+        is_least ? is_larger_share(found_weight, weight) : is_larger_share(weight, found_weight);
+    if (!is_first && !is_better) return;
     is_first = false;
     found = value;
     found_weight = weight;

@@ -53,6 +53,21 @@ class Nominal(Files):
                 self.assertLess(float(weights["yc_a"][:].max()), 71)
                 self.assertGreater(float(weights["yc_a"][:].max()), 69)
 
+    def test_names_are_enough(self):
+        lon, lat = tripolar()
+        for names in (("geolon", "geolat"), ("nav_lon", "nav_lat")):
+            data = self.new("o.nc")
+            for axis, size, unit in (("xh", COLUMNS, "degrees_east"), ("yh", ROWS, "degrees_north")):
+                data.createDimension(axis, size)
+                add(data, axis, (axis,), 10.0 + np.arange(size), units=unit)
+            for name, values in zip(names, (lon, lat), strict=True):
+                add(data, name, ("yh", "xh"), values)
+            add(data, "depth", ("yh", "xh"), height(lon, lat))
+            data.close()
+            self.run_tool("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
+            with netCDF4.Dataset(self.folder / "v.nc") as out:
+                self.assertTrue(np.allclose(out["lat"][:], lat))
+
     def test_fields_of_degrees_are_no_places(self):
         self.ocean("o.nc", "lon_of_origin", "lat_of_origin")
         self.run_tool("interpolate", "o.nc:depth", "--method", "nearest", "--to", "o.nc:depth",
@@ -165,6 +180,67 @@ class OtherOrders(Files):
             with netCDF4.Dataset(self.folder / "w.nc") as weights:
                 self.assertEqual(sorted(set(weights["row"][:].tolist())), [1, 3])
                 self.assertEqual(weights["mask_b"][:].tolist(), [1, 0, 1, 0])
+
+
+    def test_sites_are_given_to_targets_that_are_not_masked(self):
+        """--method nearest_d2s: each site counts once, at its nearest target among these."""
+        sites = [(1.0, 5.0, 3.0), (9.0, 6.2, 5.0), (21.0, 7.0, 7.0), (29.0, 8.0, 11.0)]
+        rows = "".join(f"{lon},{lat},{t}\n" for lon, lat, t in sites)
+        (self.folder / "s.csv").write_text("lon,lat,t\n" + rows)
+        data = self.new("mask.nc")
+        data.createDimension("grid_size", 4)
+        data.createDimension("grid_corners", 4)
+        for name, values, sides in (
+            ("lon", [0.0, 10, 20, 30], [-1, 1, 1, -1]),
+            ("lat", [5.0, 6, 7, 8], [-1, -1, 1, 1]),
+        ):
+            add(data, f"grid_center_{name}", ("grid_size",), values, units="degrees")
+            add(data, f"grid_corner_{name}", ("grid_size", "grid_corners"),
+                np.add.outer(values, sides), units="degrees")
+        add(data, "grid_imask", ("grid_size",), np.array([1, 0, 1, 0], np.int32))
+        data.close()
+        self.run_tool("interpolate", "s.csv", "--value", "t", "--to", "mask.nc", "--method",
+                      "nearest_d2s", "-o", "o.csv")
+        with open(self.folder / "o.csv", newline="") as file:
+            values = [row["t"] for row in csv.DictReader(file)]
+        self.assertEqual(values, ["8", "", "18", ""])
+
+
+class Values(Files):
+    def test_equal_areas_of_pixels_are_ties(self):
+        data = self.new("q.nc")
+        data.createDimension("cell", 48)
+        add(data, "kind", ("cell",), np.tile(np.array([1, 2, 2, 1], np.int8), 12),
+            flag_values=np.array([1, 2], np.int8))
+        data.setncattr("rondel_grid", "healpix:1:nested")
+        data.close()
+        for options in ((), ("--statistics", "majority"), ("--statistics", "minority")):
+            self.run_tool("regrid", "q.nc", "healpix:0", "--source", "healpix:1:nested", *options,
+                          "-o", "o.nc")
+            with netCDF4.Dataset(self.folder / "o.nc") as out:
+                name = "_".join(["kind", *options[1:]])
+                self.assertEqual(set(np.asarray(out[name][:]).tolist()), {1}, options)
+
+    def test_packed_numbers_that_floats_do_not_tell_apart_are_doubles(self):
+        for scale, offset, kind in ((0.01, 273.15, "f4"), (0.01, 1e7, "f8"), (1e38, 0.0, "f8"),
+                                    (1e-48, 0.0, "f8")):
+            data = self.new("big.nc")
+            add_axes(data)
+            raw = np.arange(len(LON) * len(LAT), dtype=np.int16).reshape(len(LAT), len(LON))
+            add(data, "v", ("lat", "lon"), raw, scale_factor=scale, add_offset=offset)
+            data.close()
+            self.run_tool("regrid", "big.nc", "grid:20", "--method", "nearest", "-o", "o.nc")
+            with netCDF4.Dataset(self.folder / "o.nc") as out:
+                self.assertEqual(out["v"].dtype.str[1:], kind, (scale, offset))
+                self.assertEqual(len(np.unique(np.asarray(out["v"][:]))), raw.size)
+
+    def test_fields_are_named_once(self):
+        self.grid()
+        for command in (
+            ("regrid", "grid.nc", "grid:30", "--value", "v", "--value", "v", "-o", "o.nc"),
+            ("interpolate", "grid.nc", "--value", "v", "--value", "v", "--to", "to.csv", "-o", "o.csv"),
+        ):
+            self.assertIn('"v" is named twice', self.run_tool(*command, status=1))
 
 
 class MeshesOfOceans(Files):

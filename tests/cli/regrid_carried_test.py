@@ -359,7 +359,7 @@ class Carried(unittest.TestCase):
         # A row without a place can be read again.
         self.assertEqual(rows[2], ",,1,,")
         said = self.run_tool("info", "means.csv")
-        self.assertEqual(said, ["means.csv: left out 1 row without a place"])
+        self.assertEqual(said, ["means.csv: left out 1 row without a place; sites are numbered without it"])
 
 
 if __name__ == "__main__":

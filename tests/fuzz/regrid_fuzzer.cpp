@@ -167,7 +167,8 @@ void test_largest_share(const Weights& weights) {
                 covered_enough(std::vector{1.0, 0.0}, 0) == std::vector<std::int32_t>({1, 0}),
             "shares are compared up to rounding");
     for (const double share : shares) {
-      require(share <= shares[static_cast<std::size_t>(found[r])], "no share is larger");
+      require(!is_larger_share(share, shares[static_cast<std::size_t>(found[r])]),
+              "no share is larger");
     }
   }
 }

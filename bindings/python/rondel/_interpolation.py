@@ -61,6 +61,7 @@ def as_vectors(values: ArrayLike, num_sites: int, name: str) -> FloatArray:
     array = as_floats(values, name)
     if array.ndim < 2 or array.shape[-2:] != (num_sites, 3):
         raise ValueError(f"{name} must have shape (..., {num_sites}, 3), not {array.shape}")
+    require_finite_or_nan(array, name)
     return array
 
 

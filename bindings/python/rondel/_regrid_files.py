@@ -128,8 +128,8 @@ def regrid_file(
         With 'bounds' no value of 'conservative_2nd' is beyond those of its sources, and the
         integral is kept. It needs the weights of all targets at a time.
     max_missing : float, optional
-        The share of a target that may lack values, from 0 to 1; by default 0.5. A target at the
-        limit, up to 1e-9, has a value.
+        The share of a target that no source may cover, and of its covered part in which values
+        may be missing, from 0 to 1; by default 0.5. A target at the limit, up to 1e-9, has a value.
     sides : {'parallels', 'great_circles'}, optional
         The northern and southern sides of cells of grids, as in `CellSet.lonlat_grid`.
     edges, invalid, corners

@@ -13,6 +13,7 @@ from ._arrays import (
     as_floats,
     as_threads,
     by_names,
+    require_finite_or_nan,
     target_vectors,
     unit_vectors,
     values_by_names,
@@ -127,13 +128,15 @@ class VectorInterpolation(Interpolation):
         Raises
         ------
         InvalidInput
-            If an angle is not finite or a latitude is outside [-90, 90].
+            If a component is infinite, an angle is not finite or a latitude is outside [-90, 90].
 
         """
         u = as_fields(east, self.npoints, "east")
         v = as_fields(values_by_names(north, east), self.npoints, "north")
         if u.shape != v.shape:
             raise ValueError(f"east and north differ in shape: {u.shape} and {v.shape}")
+        require_finite_or_nan(u, "east")
+        require_finite_or_nan(v, "north")
         to_east, to_north = directions(*np.moveaxis(self.lonlat, -1, 0))
         vectors = u[..., None] * to_east + v[..., None] * to_north
         lon, lat = by_names(lon, lat)

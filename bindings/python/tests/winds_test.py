@@ -90,3 +90,15 @@ def test_empty_and_missing():
     assert np.isnan(patch.interpolate_vectors(np.ones((30, 3)), [0, 0, -1])).all()
     with pytest.raises(ValueError, match="method must be one of"):
         tri.interpolate_winds(np.ones(300), np.ones(300), 0, 0, "spline")
+
+
+def test_infinite_components_are_refused():
+    tri = rondel.delaunay(SITES)
+    u, v = np.ones(300), np.ones(300)
+    v[7] = np.inf
+    with pytest.raises(rondel.InvalidInput, match="north have an infinite number at index 7"):
+        tri.interpolate_winds(u, v, 0, 0)
+    vectors = np.cross(AXIS, SITES)
+    vectors[5, 2] = -np.inf
+    with pytest.raises(rondel.InvalidInput, match="vectors have an infinite number"):
+        tri.interpolate_vectors(vectors, TARGETS)
