@@ -145,6 +145,8 @@ class RegridJob {
     const FieldSet written =
         formats::fields_at_targets(in, std::vector(in.arrays), source_, target_, options_.history);
     make_plan();
+    fields_->keep_chunks(
+        static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     const bool is_netcdf = is_netcdf_file(out_);
     const WeightSide side = target_.description(is_netcdf);
     std::optional<RegridOutput> output;
@@ -278,8 +280,6 @@ class RegridJob {
       task.has_whole_fields = true;
     }
     plan_ = plan_of(task);
-    fields_->keep_chunks(
-        static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
     // for each group, which takes as long as some fields do.
     constexpr std::size_t fields_to_lose = 16;

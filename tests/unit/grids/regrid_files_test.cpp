@@ -244,7 +244,8 @@ TEST(regrid_files, refuse_what_does_not_fit) {
   };
   EXPECT_EQ(why("N33").substr(0, 20), "'N33' is no grid: N ");
   EXPECT_EQ(why("nothing.nc"), "nothing.nc: No such file or directory");
-  EXPECT_EQ(why("healpx:4").substr(0, 55), "healpx:4 is neither a file nor a grid: grids are grid:D");
+  EXPECT_EQ(why("healpx:4").substr(0, 55),
+            "healpx:4 is neither a file nor a grid: grids are grid:D");
   const std::string table = temporary_path("points.csv");
   std::ofstream(table) << "lon,lat\n0,0\n";
   EXPECT_EQ(why(table), table +
