@@ -11,10 +11,12 @@ import numpy as np
 import xarray
 
 from . import _core
+from ._arrays import half_turn
 from ._types import FloatArray
 
 # What to do with dimensions along which places do not change: drop all, those called time, or none.
 Repeats: TypeAlias = Literal["drop", "drop_times", "keep"]
+SAME = 1e-3  # degrees, between axes and coordinates of two dimensions of the same places
 MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
 
 
@@ -87,6 +89,30 @@ class Coordinates:
             self.lat = self.lat.transpose(*self.lon.dims)
             if repeats != "keep":
                 self._drop_repeated(are_times=repeats == "drop_times")
+        if lon is None and lat is None:
+            self._take_axes_of_same_places()
+
+    def _take_axes_of_same_places(self) -> None:
+        """Takes axes along the dimensions of coordinates that have two and no bounds, if they are
+        the same places: axes have cells.
+        """
+        if self.are_axes or self.have_bounds or self.lon.ndim != 2:
+            return
+        first, second = self.lon.dims
+        for lon, lat in ((second, first), (first, second)):
+            try:
+                axes = Coordinates(self._data, lon, lat)
+            except ValueError:
+                continue
+            if not axes.are_axes or (axes.lon.dims, axes.lat.dims) != ((lon,), (lat,)):
+                continue
+            own = [array.transpose(lat, lon).values for array in (self.lon, self.lat)]
+            east = half_turn(np.asarray(own[0] - axes.lon.values[None, :], np.float64))
+            if (np.abs(east) <= SAME).all() and np.allclose(
+                own[1], axes.lat.values[:, None], rtol=0, atol=SAME
+            ):
+                self.__dict__.update(axes.__dict__)
+                return
 
     def _read(self, name: str, unit: float) -> xarray.Variable:
         variable = self._data[name].variable
