@@ -29,7 +29,7 @@ for (const [name, place] of [["rondel", "."], ["polygons", "polygons"]]) {
   writeFileSync(join(folder, `${name}.wasm`), module);
   writeFileSync(
     join(folder, "src", place, "module.js"),
-    `${banner}\n/** ${name}.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
+    `${banner}\n/** ${name}.wasm in base64. @type {string} */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
   );
 }
 
