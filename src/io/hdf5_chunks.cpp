@@ -234,8 +234,6 @@ bool Hdf5Chunks::is_in_chunk(const NetcdfBox& box) const {
   return true;
 }
 
-bool Hdf5Chunks::has_first(const NetcdfBox& box) const { return is_begin(box.start); }
-
 bool Hdf5Chunks::has_last(const NetcdfBox& box) const {
   for (std::size_t d = 0; d < shape_.size(); ++d) {
     const std::uint64_t begin = box.start[d] - box.start[d] % chunk_[d];
@@ -285,7 +283,7 @@ std::shared_ptr<const Hdf5Chunks::ChunkValues> Hdf5Chunks::chunk_of(const FileBy
   const std::size_t number = number_of(box.start);
   const std::size_t size = values_per_chunk_ * value_size_;
   const bool is_last = has_last(box);
-  if (!has_first(box)) {
+  if (!is_begin(box.start)) {
     const std::scoped_lock guard(lock_);
     const auto known = kept_.find(number);
     if (known != kept_.end()) {

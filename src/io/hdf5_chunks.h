@@ -74,8 +74,7 @@ class Hdf5Chunks {
   [[nodiscard]] bool is_begin(std::span<const std::size_t> start) const;
   // Returns the number of the chunk that has these indices.
   [[nodiscard]] std::size_t number_of(std::span<const std::size_t> start) const;
-  // True if a box has the first value of its chunk, or the last one.
-  [[nodiscard]] bool has_first(const NetcdfBox& box) const;
+  // True if a box has the last value of its chunk.
   [[nodiscard]] bool has_last(const NetcdfBox& box) const;
   [[nodiscard]] ChunkValues values_of(const FileBytes& file, const StoredChunk& place) const;
   // Returns the values of the chunk of a box, which are kept or read.

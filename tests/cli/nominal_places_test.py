@@ -157,8 +157,8 @@ class OtherOrders(Files):
         self.grid()
         self.run_tool("regrid", "grid.nc", "B.GEOJSON", "--edges", "geodesic", "-o", "o.csv")
 
-    def test_masked_targets_get_no_value(self):
-        self.grid()
+    def masked_targets(self):
+        """Four cells of SCRIP in mask.nc, of which the second and the last one are masked."""
         data = self.new("mask.nc")
         data.createDimension("grid_size", 4)
         data.createDimension("grid_corners", 4)
@@ -171,6 +171,10 @@ class OtherOrders(Files):
                 np.add.outer(values, sides), units="degrees")
         add(data, "grid_imask", ("grid_size",), np.array([1, 0, 1, 0], np.int32))
         data.close()
+
+    def test_masked_targets_get_no_value(self):
+        self.grid()
+        self.masked_targets()
         for options in ((), ("--extrapolate", "nearest")):
             self.run_tool("interpolate", "grid.nc", "--to", "mask.nc", "--weights", "w.nc",
                           "-o", "o.csv", *options)
@@ -181,24 +185,12 @@ class OtherOrders(Files):
                 self.assertEqual(sorted(set(weights["row"][:].tolist())), [1, 3])
                 self.assertEqual(weights["mask_b"][:].tolist(), [1, 0, 1, 0])
 
-
     def test_sites_are_given_to_targets_that_are_not_masked(self):
         """--method nearest_d2s: each site counts once, at its nearest target among these."""
         sites = [(1.0, 5.0, 3.0), (9.0, 6.2, 5.0), (21.0, 7.0, 7.0), (29.0, 8.0, 11.0)]
         rows = "".join(f"{lon},{lat},{t}\n" for lon, lat, t in sites)
         (self.folder / "s.csv").write_text("lon,lat,t\n" + rows)
-        data = self.new("mask.nc")
-        data.createDimension("grid_size", 4)
-        data.createDimension("grid_corners", 4)
-        for name, values, sides in (
-            ("lon", [0.0, 10, 20, 30], [-1, 1, 1, -1]),
-            ("lat", [5.0, 6, 7, 8], [-1, -1, 1, 1]),
-        ):
-            add(data, f"grid_center_{name}", ("grid_size",), values, units="degrees")
-            add(data, f"grid_corner_{name}", ("grid_size", "grid_corners"),
-                np.add.outer(values, sides), units="degrees")
-        add(data, "grid_imask", ("grid_size",), np.array([1, 0, 1, 0], np.int32))
-        data.close()
+        self.masked_targets()
         self.run_tool("interpolate", "s.csv", "--value", "t", "--to", "mask.nc", "--method",
                       "nearest_d2s", "-o", "o.csv")
         with open(self.folder / "o.csv", newline="") as file:
