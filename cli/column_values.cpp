@@ -13,6 +13,7 @@
 
 #include "command.h"
 #include "double_text.h"
+#include "field_facts.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/read_cells.h"
@@ -26,11 +27,17 @@ struct CellNumber {
   const char* fault = nullptr;
 };
 
+// Returns a cell without blanks around it, and without a plus before it.
+std::string_view trimmed(std::string_view cell) {
+  const auto first = cell.find_first_not_of(" \t+");
+  if (first == std::string_view::npos) return {};
+  return cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
+}
+
 CellNumber number_of(std::string_view cell) {
   CellNumber number;
-  const auto first = cell.find_first_not_of(" \t+");
-  if (first == std::string_view::npos) return number;
-  cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
+  cell = trimmed(cell);
+  if (cell.empty()) return number;
   if (cell == "NA" || cell == "null") return number;
   const auto [end, error] = double_from(cell.data(), cell.data() + cell.size(), number.value);
   if (end != cell.data() + cell.size() || error == std::errc::invalid_argument) {
@@ -47,9 +54,8 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
                  const std::string& name) {
   const CellNumber number = number_of(cell);
   if (number.fault == nullptr) return number.value;
-  cell.remove_prefix(std::min(cell.find_first_not_of(" \t+"), cell.size()));
-  cell = cell.substr(0, cell.find_last_not_of(" \t") + 1);
-  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' " + number.fault);
+  throw FileError(table.where(site) + ": " + name + " '" + std::string(trimmed(cell)) + "' " +
+                  number.fault);
 }
 
 // Returns a field of a netCDF file at the sites: that of a variable with one field, or one of
@@ -60,12 +66,8 @@ std::vector<double> netcdf_values(const SiteTable& table, const std::string& nam
   const FieldSet& fields = file.fields();
   const FieldArray& array = fields.arrays.front();
   if (array.num_fields() != 1) {
-    std::string along;
-    for (std::size_t d = 0; d < array.dimensions.size(); ++d) {
-      along += (d == 0 ? "" : ", ") + array.dimensions[d] + " " + std::to_string(array.shape[d]);
-    }
-    std::string text =
-        option + ": '" + name + "' of " + table.name + " has several fields (" + along + ")";
+    std::string text = option + ": '" + name + "' of " + table.name + " has several fields (" +
+                       lengths_in_words(array) + ")";
     if (array.num_fields() > 1) {
       std::string first = name + "[0";
       for (std::size_t d = 1; d < array.shape.size(); ++d) first += ",0";
