@@ -4,9 +4,12 @@
 #include "bulk/emit.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "system/prefetch.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::bulk {
 namespace {
@@ -14,10 +17,15 @@ namespace {
 using Edge = PlaneGraph::Edge;
 
 using Owned = EmissionSpace::Owned;
+using Owner = EmissionSpace::Owner;
 
-// Three passes, over edges, sites, and edges. The first one finds out, without branches, how many
-// faces a site owns and which is the first, so that the second one need not go around sites twice.
-// Where no face is open, nobody asks.
+// So many owners ahead, halfedges are asked for.
+constexpr std::size_t num_ahead = 8;
+
+// Passes over edges, sites, faces, and edges. The first one finds out how many faces a site owns and
+// which is the first, so that the second one need not go around sites twice. Neither has a branch that
+// depends on the input: several walks wait for memory at once instead. Where no face is open, nobody
+// asks.
 template <bool has_open>
 class Emission {
  public:
@@ -34,7 +42,8 @@ class Emission {
   void run(const std::vector<Edge>& open, const std::vector<Index>& hidden) {
     find_owned();
     list_sites(open, hidden);
-    if (owners_.empty()) return;
+    if (result_.faces_end == result_.faces_begin) return;
+    list_faces();
     if (sites_.names.empty()) {
       write_corners([first = sites_.first](Index v) { return first + v; });
     } else {
@@ -46,25 +55,36 @@ class Emission {
  private:
   static bool is_open(Index face) { return has_open && face == open_face; }
 
+  // What one edge tells of the sites, for the lower one of its ends.
+  RONDEL_ALWAYS_INLINE void look_at(Edge e, const PlaneGraph::Links* rings, const Index* targets,
+                                    const Index* faces, Owned* owned) const {
+    if (targets[e] == no_index) return;
+    // From the end with the lower rank: only this one can own the face on the left. An index that
+    // is computed takes no branch.
+    const Edge f = e + static_cast<Edge>(targets[e] < targets[e + 1]);
+    const Index a = targets[f ^ 1];
+    const std::uint64_t b = targets[f];
+    const Index c = targets[rings[f].next];
+    const auto is_owned = static_cast<Index>(a < c) & static_cast<Index>(!is_open(faces[f]));
+    const std::uint64_t key = b << 32 | f | (std::uint64_t{is_owned} - 1);
+    owned[a].first = std::min(owned[a].first, key);
+    owned[a].count += is_owned;
+  }
+
+  // Edges that follow each other often have the same lower end: two halves in turns, as the next one
+  // would wait for what was just written.
   void find_owned() {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
     Owned* const owned = owned_.data();
     const Edge limit = graph_.edge_limit();
-    for (Edge e = 0; e < limit; e += 2) {
-      if (targets[e] == no_index) continue;
-      // From the end with the lower rank: only this one can own the face on the left. An index that
-      // is computed takes no branch.
-      const Edge f = e + static_cast<Edge>(targets[e] < targets[e + 1]);
-      const Index a = targets[f ^ 1];
-      const std::uint64_t b = targets[f];
-      const Index c = targets[rings[f].next];
-      const auto is_owned = static_cast<Index>(a < c) & static_cast<Index>(!is_open(faces[f]));
-      const std::uint64_t key = b << 32 | f | (std::uint64_t{is_owned} - 1);
-      owned[a].first = std::min(owned[a].first, key);
-      owned[a].count += is_owned;
+    const Edge half = limit / 4 * 2;
+    for (Edge e = 0; e < half; e += 2) {
+      look_at(e, rings, targets, faces, owned);
+      look_at(half + e, rings, targets, faces, owned);
     }
+    for (Edge e = 2 * half; e < limit; e += 2) look_at(e, rings, targets, faces, owned);
   }
 
   // Lists owners and seam sites.
@@ -77,7 +97,7 @@ class Emission {
     Index face = result_.faces_begin;
     for (Index v = 0; v < num_sites; ++v) {
       const Index count = owned_[v].count;
-      owners_[num_owners] = v;
+      owners_[num_owners] = {owned_[v].first, v, face - result_.faces_begin + count};
       num_owners += static_cast<Index>(count != 0);
       if (owned_[v].seam == seam) {
         owned_[v].seam = static_cast<Index>(result_.seam_sites.size());
@@ -86,43 +106,77 @@ class Emission {
       face += count;
     }
     for (const Index v : hidden) result_.hidden.push_back(owned_[v].seam);
-    owners_.resize(num_owners);
+    std::fill_n(owners_.begin() + num_owners, num_ahead, Owner{});
+    num_owners_ = num_owners;
     result_.faces_end = face;
   }
 
-  // Names the faces in the order of their owners. A name is kept with the three halfedges, four
-  // times, plus the number of the corner opposite to the halfedge.
+  // Around one owner after the other, from the first face to the last.
+  struct Walk {
+    std::uint64_t at;  // second corner of the next face that may be owned, and halfedge to it
+    std::size_t face;
+    const Owner* owner;
+    const Owner* end;
+  };
+
+  // One step around an owner, or to the next one.
+  RONDEL_ALWAYS_INLINE void step(Walk& walk, const PlaneGraph::Links* rings, const Index* targets,
+                                 const Index* faces) const {
+    const auto e = static_cast<Edge>(walk.at);
+    const auto b = static_cast<Index>(walk.at >> 32U);
+    const Edge next = rings[e].next;
+    const Index c = targets[next];
+    const auto ahead = static_cast<Edge>(walk.owner[num_ahead].first);
+    system::prefetch(&rings[ahead]);
+    system::prefetch(&targets[ahead]);
+    neighbors_[walk.face][0] = e;
+    walk.face += static_cast<std::size_t>(walk.owner->site < std::min(b, c)) &
+                 static_cast<std::size_t>(!is_open(faces[e]));
+    const auto is_last = static_cast<std::uint64_t>(walk.face == walk.owner->end);
+    const std::uint64_t on = std::uint64_t{c} << 32U | next;
+    walk.at = on ^ ((on ^ walk.owner[1].first) & (0 - is_last));
+    walk.owner += is_last;
+  }
+
+  // Lists the faces in the order of their owners: each by the halfedge from the owner to the second
+  // corner, where its first neighbor will be.
+  void list_faces() {
+    const PlaneGraph::Links* const rings = graph_.rings();
+    const Index* const targets = graph_.targets();
+    const Index* const faces = graph_.faces();
+    constexpr std::size_t num_walks = 3;
+    std::array<Walk, num_walks> walks;
+    for (std::size_t k = 0; k < num_walks; ++k) {
+      const std::size_t begin = num_owners_ * k / num_walks;
+      const std::size_t end = num_owners_ * (k + 1) / num_walks;
+      const Owner* const owners = owners_.data();
+      walks[k] = {owners[begin].first, begin == 0 ? 0 : owners[begin - 1].end, owners + begin,
+                  owners + end};
+    }
+    const auto has_ended = [](const Walk& walk) { return walk.owner == walk.end; };
+    while (!has_ended(walks[0]) && !has_ended(walks[1]) && !has_ended(walks[2])) {
+      for (Walk& walk : walks) step(walk, rings, targets, faces);
+    }
+    for (Walk& walk : walks) {
+      while (!has_ended(walk)) step(walk, rings, targets, faces);
+    }
+  }
+
+  // Names the listed faces. A name is kept with the three halfedges, four times, plus the number of the
+  // corner opposite to the halfedge.
   template <class Name>
   void write_corners(Name name) {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     Index* const faces = graph_.faces();
-    const Owned* const owned = owned_.data();
-    Triple* const corners = corners_;
-    const std::size_t last = owners_.size() - 1;
-    Index face = 0;
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Index ahead = owners_[std::min(i + system::prefetch_distance, last)];
-      const auto edge_ahead = static_cast<Edge>(owned[ahead].first);
-      system::prefetch(&rings[edge_ahead]);
-      system::prefetch(&targets[edge_ahead]);
-      const Index v = owners_[i];
-      const Index end = face + owned[v].count;
-      auto e = static_cast<Edge>(owned[v].first);
-      Index b = targets[e];
-      do {
-        const Edge next = rings[e].next;
-        const Index c = targets[next];
-        if (v < std::min(b, c) && !is_open(faces[e])) {
-          corners[face] = {name(v), name(b), name(c)};
-          faces[rings[e ^ 1].previous] = 4 * face;
-          faces[next ^ 1] = 4 * face + 1;
-          faces[e] = 4 * face + 2;
-          ++face;
-        }
-        e = next;
-        b = c;
-      } while (face != end);
+    const Index num_faces = result_.faces_end - result_.faces_begin;
+    for (Index face = 0; face < num_faces; ++face) {
+      const Edge e = neighbors_[face][0];
+      const Edge next = rings[e].next;
+      corners_[face] = {name(targets[e ^ 1]), name(targets[e]), name(targets[next])};
+      faces[rings[e ^ 1].previous] = 4 * face;
+      faces[next ^ 1] = 4 * face + 1;
+      faces[e] = 4 * face + 2;
     }
   }
 
@@ -159,7 +213,8 @@ class Emission {
   PlaneGraph& graph_;
   const EmittedSites& sites_;
   std::vector<Owned>& owned_;
-  std::vector<Index>& owners_;
+  std::vector<Owner>& owners_;  // and none behind them, as walks look ahead
+  std::size_t num_owners_ = 0;
   Triple* corners_;
   Triple* neighbors_;
   BlockResult& result_;
@@ -172,7 +227,7 @@ void emit_faces(PlaneGraph& graph, const EmittedSites& sites, const std::vector<
                 BlockResult& result) {
   result.faces_begin = 2 * sites.first;
   space.owned.assign(sites.num, {~std::uint64_t{0}, 0, no_index});
-  space.owners.resize(sites.num);
+  space.owners.resize(sites.num + num_ahead);
 #if defined(__wasm__)  // where a second one would cost more bytes than it saves time
   if (open.empty()) graph.clear_faces();
 #else

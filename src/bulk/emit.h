@@ -62,8 +62,14 @@ struct EmissionSpace {
     Index count;
     Index seam;  // the place of a seam site in the result
   };
+  // A site that owns faces: before those of the next owner, whose first one is the face `end`.
+  struct Owner {
+    std::uint64_t first;
+    Index site;
+    Index end;
+  };
   std::vector<Owned> owned;
-  std::vector<Index> owners;
+  std::vector<Owner> owners;
 };
 
 // The sites of a graph have the ranks first, first + 1, ..., and perhaps names that are not ranks.
