@@ -113,14 +113,43 @@ class FlipMender {
     return predicates::orientation(std::as_const(sites_), a, b, c).sign == Sign::positive;
   }
 
-  // Whether a face of the new points is farther from the center than 2 d, for the square of d.
-  // Squares of sums are at most twice the sums of squares; the rest is for roundings.
-  [[nodiscard]] bool is_far(const topology::Face& face, double square) const {
+  // What is asked of a face of the new points: whether it is positive, how far from the center it is,
+  // and on which side of it a site is.
+  struct FaceOfPoints {
+    predicates::Vector a;
+    predicates::Vector normal;
+    double ab2;
+    double ac2;
+  };
+  [[nodiscard, gnu::always_inline]] FaceOfPoints face_of_points(const topology::Face& face) const {
     const predicates::Vector a = sites_.from_center(face.vertex[0]);
     const predicates::Vector ab = sites_.from_center(face.vertex[1]) - a;
     const predicates::Vector ac = sites_.from_center(face.vertex[2]) - a;
-    const double longest = std::max(dot(ab, ab), dot(ac, ac));
-    return 2 * (longest + 4 * square) < 0.98 * dot(a, a);
+    return {a, cross(ab, ac), dot(ab, ab), dot(ac, ac)};
+  }
+
+  [[nodiscard]] bool is_positive(Index f, const FaceOfPoints& face) const {
+    if constexpr (T::model == Model::projected) {
+      const double value = dot(face.a, face.normal);
+      if (predicates::is_direction_orientation_certain(value, face.ab2, face.ac2)) return value > 0;
+    }
+    return is_positive(f);
+  }
+  // Whether it is farther from the center than 2 d, for the square of d. Squares of sums are at most
+  // twice the sums of squares; the rest is for roundings.
+  [[nodiscard]] static bool is_far(const FaceOfPoints& face, double square) {
+    const double longest = std::max(face.ab2, face.ac2);
+    return 2 * (longest + 4 * square) < 0.98 * dot(face.a, face.a);
+  }
+  // The sign of the conflict test, or zero if that is not certain.
+  [[nodiscard, gnu::always_inline]] Sign sure_side(const std::array<Index, 3>& v,
+                                                   const FaceOfPoints& face, Index p) const {
+    if constexpr (T::model == Model::projected) {
+      const Sign sign = predicates::sure_side_of_face(face.a, face.normal, face.ab2, face.ac2,
+                                                      sites_.direction(p));
+      if (sign != Sign::zero) return sign;
+    }
+    return predicates::sure_conflict(std::as_const(sites_), v[0], v[1], v[2], p);
   }
 
   // Faces that are looked at together: what is read of their neighbors is asked for early, and a
@@ -130,14 +159,16 @@ class FlipMender {
   // Looks at up to that many faces, from `begin` on.
   [[gnu::flatten]] void look_at(Index begin, Index end, double square, Findings& found) const {
     const topology::Mesh& mesh = hull_.mesh();
+    std::array<FaceOfPoints, faces_at_once> faces;
     std::array<topology::Halfedge, 3 * faces_at_once> edges;
     std::array<Index, 3 * faces_at_once> apexes;
     std::size_t size = 0;
     for (Index f = begin; f < end; ++f) {
       if (!mesh.is_alive(f)) continue;
       const topology::Face& face = mesh[f];
-      if (!is_far(face, square)) found.are_far = false;
-      if (!is_positive(f)) found.inverted.push_back(f);
+      const FaceOfPoints& points = faces[f - begin] = face_of_points(face);
+      if (!is_far(points, square)) found.are_far = false;
+      if (!is_positive(f, points)) found.inverted.push_back(f);
       for (unsigned i = 0; i < 3; ++i) {
         edges[size] = topology::halfedge(f, i);
         system::prefetch(&mesh[topology::face_of(face.opposite[i])]);
@@ -152,9 +183,8 @@ class FlipMender {
     }
     std::size_t num_open = 0;
     for (std::size_t k = 0; k < size; ++k) {
-      const auto& v = mesh[topology::face_of(edges[k])].vertex;
-      const Sign sign =
-          predicates::sure_conflict(std::as_const(sites_), v[0], v[1], v[2], apexes[k]);
+      const Index f = topology::face_of(edges[k]);
+      const Sign sign = sure_side(mesh[f].vertex, faces[f - begin], apexes[k]);
       edges[num_open] = edges[k];
       num_open += sign != Sign::negative ? 1U : 0U;
     }
@@ -257,6 +287,23 @@ class FlipMender {
     return are_positive;
   }
 
+  // Asks for what edges of the stack will need: each time for the next thing of another one.
+  void prefetch_below_top() const {
+    constexpr std::size_t ahead = 6;
+    if (stack_.size() < 3 * ahead) return;
+    const topology::Mesh& mesh = hull_.mesh();
+    const topology::Halfedge* const top = stack_.data() + stack_.size();
+    system::prefetch(&mesh[topology::face_of(*(top - 3 * ahead))]);
+    const topology::Halfedge next = *(top - 2 * ahead);
+    const topology::Face& face = mesh[topology::face_of(next)];
+    system::prefetch(&mesh[topology::face_of(face.opposite[topology::edge_of(next)])]);
+    for (const Index v : face.vertex) sites_.prefetch(v);
+    const topology::Halfedge soon = *(top - ahead);
+    const topology::Halfedge other =
+        mesh[topology::face_of(soon)].opposite[topology::edge_of(soon)];
+    sites_.prefetch(mesh[topology::face_of(other)].vertex[topology::edge_of(other)]);
+  }
+
   // Flips until all edges of the stack, and those that flips put there, are locally Delaunay. False
   // if one cannot be flipped, or a build would take less time.
   [[nodiscard, gnu::flatten]] bool flip_all() {
@@ -264,10 +311,7 @@ class FlipMender {
     while (!stack_.empty()) {
       const topology::Halfedge h = stack_.back();
       stack_.pop_back();
-      constexpr std::size_t ahead = 8;
-      if (stack_.size() > ahead) {
-        system::prefetch(&mesh[topology::face_of(stack_[stack_.size() - ahead])]);
-      }
+      prefetch_below_top();
       const topology::Face& face = mesh[topology::face_of(h)];
       const topology::Halfedge other = face.opposite[topology::edge_of(h)];
       const Index p = mesh[topology::face_of(other)].vertex[topology::edge_of(other)];

@@ -145,8 +145,9 @@ class Walk {
   // from that site.
   [[nodiscard]] static bool is_certain(double value, const predicates::Vector& ray,
                                        const predicates::Vector& a, const predicates::Vector& b) {
-    return T::hides_sites ? predicates::is_orientation_certain(value, ray, a, b)
-                          : predicates::is_direction_orientation_certain(value, a, b);
+    return T::hides_sites
+               ? predicates::is_orientation_certain(value, ray, a, b)
+               : predicates::is_direction_orientation_certain(value, dot(a, a), dot(b, b));
   }
 
   // The exact walk among the faces of one kind, where p is not beyond the edge that was just

@@ -15,8 +15,8 @@
 namespace rondel::predicates {
 
 // Whether det(a, ab, ac) of directions within `direction_error` of unit vectors has the right sign.
-inline bool is_direction_orientation_certain(double value, const Vector& ab, const Vector& ac) {
-  const double longest = std::max(dot(ab, ab), dot(ac, ac));
+inline bool is_direction_orientation_certain(double value, double ab2, double ac2) {
+  const double longest = std::max(ab2, ac2);
   constexpr double bound = direction_orientation_bound * direction_orientation_bound;
   return value * value > bound * longest;
 }
@@ -33,7 +33,7 @@ inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c
   const Vector ab = b - a;
   const Vector ac = c - a;
   const double value = det(a, ab, ac);
-  return unless_unsure(value, is_direction_orientation_certain(value, ab, ac));
+  return unless_unsure(value, is_direction_orientation_certain(value, dot(ab, ab), dot(ac, ac)));
 }
 
 // The filter for points as given, with numbers of 64 bits where the machine has them.

@@ -53,6 +53,16 @@ namespace rondel::predicates {
   return unless_unsure(value, value * value > bound * (m * m * m));
 }
 
+// The first try of this filter for one face (b, c, d) and several p, or zero: by differences from b
+// instead of from p, as the test is odd under their exchange. `normal` is cross(c-b, d-b), and c2 and
+// d2 are the squares of their lengths.
+inline Sign sure_side_of_face(const Vector& b, const Vector& normal, double c2, double d2,
+                              const Vector& p) {
+  const Vector bp = p - b;
+  const double plain = dot(bp, normal);
+  return unless_unsure(plain, is_beyond_longest(plain, circle_plane_bound, dot(bp, bp), c2, d2));
+}
+
 // Unsure of everything where the processor has no numbers of 64 bits. Decides what the roundings of
 // coordinates leave of ties. The unit vectors must be within 2^-100 of the exact ones.
 Sign side_of_circle_extended(const exact::SplitPoint& b, const exact::SplitPoint& c,
