@@ -148,7 +148,7 @@ class RONDEL_API Interpolator {
   /// Returns the values of fields at the targets, shape (num_fields, targets). For nearest, linear,
   /// laplace and sibson they are those of apply(weights(targets)), bit by bit except for
   /// SharedPlace::mean; for hermite and cubic up to rounding. A value is NaN if there is none, or
-  /// if it depends on a NaN. Weights are not stored.
+  /// if it depends on a NaN by more than rounding (ApplyOptions::max_missing). Weights are not stored.
   /// \param field  values at the sites, shape (num_fields, n)
   /// \throws InvalidInput also if the length of `field` is not a positive multiple of n.
   [[nodiscard]] std::vector<double> values(std::span<const double> field,

@@ -16,6 +16,7 @@
 #include "exact/vector.h"
 #include "interpolation/collected_rows.h"
 #include "interpolation/row.h"
+#include "interpolation/sum_of_present.h"
 #include "interpolation/vertex_fields.h"
 #include "interpolation/vertex_gradients.h"
 #include "system/prefetch.h"
@@ -33,7 +34,12 @@ class FieldSums {
   [[nodiscard]] double operator()(std::size_t f, const Row& row) const {
     double sum = 0;
     for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
-    return std::isfinite(sum) ? sum : small_sum(f, row) / scale_of_large;
+    if (std::isfinite(sum)) return sum;
+    return sum_of_present(
+        [&](const auto& visit) {
+          for (const auto& [vertex, weight] : row) visit(weight, values_(f, vertex));
+        },
+        {});
   }
   // The gradient at a vertex with slope 0 is not read, so that it may be anything.
   [[nodiscard]] double operator()(std::size_t f, const GradientRow& row) const {
@@ -47,11 +53,6 @@ class FieldSums {
 
  private:
   // Returns the sum of values that are multiplied by scale_of_large first.
-  [[nodiscard]] double small_sum(std::size_t f, const Row& row) const {
-    double sum = 0;
-    for (const auto& [vertex, weight] : row) sum += weight * (scale_of_large * values_(f, vertex));
-    return sum;
-  }
   [[nodiscard]] double small_sum(std::size_t f, const GradientRow& row) const {
     double sum = 0;
     for (const auto& [vertex, weight, slope] : row) {

@@ -12,7 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "interpolation/vertex_fields.h"
+#include "interpolation/sum_of_present.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -86,34 +86,15 @@ bool are_finite(const Weights& weights, std::size_t row) {
   return true;
 }
 
-// The sum over a row of which some values may be missing, or in which it goes beyond the largest
-// number and comes back.
 double sum_of_present(const Weights& weights, std::size_t row, const double* in,
                       const ApplyOptions& options) {
-  double sum = 0;
-  double small_sum = 0;
-  double present = 0;
-  double all = 0;
-  double absolute_missing = 0;
-  double absolute = 0;
-  for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
-    const double weight = weights.values[k];
-    const double value = in[weights.columns[k]];
-    all += weight;
-    absolute += std::abs(weight);
-    if (std::isnan(value)) {
-      absolute_missing += std::abs(weight);
-    } else {
-      sum += weight * value;
-      small_sum += weight * (interpolation::scale_of_large * value);
-      present += weight;
-    }
-  }
-  const bool is_whole = absolute_missing == 0;
-  const bool is_enough = may_be_missing(absolute_missing, absolute, options.max_missing);
-  if (!is_whole && (!is_enough || present == 0)) return options.fill;
-  const double share = is_whole || options.keeps_sums ? 1 : all / present;
-  return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
+  return interpolation::sum_of_present(
+      [&](const auto& visit) {
+        for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
+          visit(weights.values[k], in[weights.columns[k]]);
+        }
+      },
+      options);
 }
 
 // The number of fields of which a row is summed at once: entries are loaded once for all of them, and

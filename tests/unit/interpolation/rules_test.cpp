@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -42,6 +43,34 @@ TEST(interpolation_rules, values_are_what_weights_apply_to) {
       }
     }
   });
+}
+
+// Rounding puts these targets beside sites, with weights of some 1e-17 of their neighbors.
+TEST(interpolation_rules, what_rounding_leaves_of_a_missing_site_is_not_missing) {
+  Random random(11);
+  std::vector<Point> sites(200);
+  for (Point& site : sites) site = random.in_ball();
+  const Triangulation triangulation = delaunay(sites);
+  std::vector<Point> targets;
+  for (const Point& site : sites) targets.push_back({1.1 * site.x, 1.1 * site.y, 1.1 * site.z});
+  std::vector<double> field = some_field(sites.size());
+  for (std::size_t i = 0; i < field.size(); i += 3) field[i] = nan;
+  const Interpolator interpolator(triangulation);
+  std::size_t num_left = 0;  // values in spite of a missing site
+  for (const Method method : {Method::linear, Method::laplace, Method::sibson}) {
+    const Weights weights = interpolator.weights(targets, {.method = method});
+    std::vector<double> applied(targets.size());
+    apply(weights, field, applied);
+    EXPECT_TRUE(are_same(interpolator.values(field, targets, {.method = method}), applied));
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const auto is_missing = [&](Index site) { return std::isnan(field[site]); };
+      if (!std::isnan(applied[t])) {
+        num_left +=
+            static_cast<std::size_t>(std::ranges::count_if(row_of(weights, t).columns, is_missing));
+      }
+    }
+  }
+  EXPECT_GT(num_left, 0);
 }
 
 TEST(interpolation_rules, at_a_site_there_is_its_value_alone) {
