@@ -25,6 +25,7 @@
 #include "bulk/square_sites.h"
 #include "order/hilbert.h"
 #include "predicates/ray_order.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::bulk {
 
@@ -96,7 +97,7 @@ class Divide {
     Part part;
     if (solve_few(begin, end, bit, part)) return part;
     const Index size = end - begin;
-    if (size > max_leaf_sites && size <= LeafPlan::max_sites && are_leaves_certain()) {
+    if (size > max_leaf_sites && size <= LeafPlan::max_sites && are_leaves_worthwhile()) {
       return solve_by_plan(begin, end, state, bit);
     }
     return divide(begin, end, state, bit);
@@ -228,10 +229,10 @@ class Divide {
     return divide(cell.begin, cell.end, cell.state, cell.bit);
   }
 
-  // Where sites are in regular places, leaves cost more than they save.
-  [[nodiscard]] bool are_leaves_certain() const {
+  // Leaves cost more than they save in vectors of two numbers, and where sites are in regular places.
+  [[nodiscard]] bool are_leaves_worthwhile() const {
     constexpr std::size_t enough = 32;
-    return num_unsure_ < enough + num_certain_;
+    return system::has_wide_vectors() && num_unsure_ < enough + num_certain_;
   }
 
   // --- parts ---
