@@ -22,7 +22,7 @@ using Owner = EmissionSpace::Owner;
 // So many owners ahead, halfedges are asked for.
 constexpr std::size_t num_ahead = 8;
 
-// Passes over edges, sites, faces, and edges. The first one finds out how many faces a site owns and
+// Passes over edges, sites, owners, faces, and edges. The first one finds out how many faces a site owns and
 // which is the first, so that the second one need not go around sites twice. Neither has a branch that
 // depends on the input: several walks wait for memory at once instead. Where no face is open, nobody
 // asks.
@@ -43,12 +43,12 @@ class Emission {
     find_owned();
     list_sites(open, hidden);
     if (result_.faces_end == result_.faces_begin) return;
-    list_faces();
     if (sites_.names.empty()) {
       write_corners([first = sites_.first](Index v) { return first + v; });
     } else {
       write_corners([names = sites_.names.data()](Index v) { return names[v]; });
     }
+    name_faces();
     write_neighbors();
   }
 
@@ -120,8 +120,9 @@ class Emission {
   };
 
   // One step around an owner, or to the next one.
+  template <class Name>
   RONDEL_ALWAYS_INLINE void step(Walk& walk, const PlaneGraph::Links* rings, const Index* targets,
-                                 const Index* faces) const {
+                                 const Index* faces, const Name& name) const {
     const auto e = static_cast<Edge>(walk.at);
     const auto b = static_cast<Index>(walk.at >> 32U);
     const Edge next = rings[e].next;
@@ -130,6 +131,7 @@ class Emission {
     system::prefetch(&rings[ahead]);
     system::prefetch(&targets[ahead]);
     neighbors_[walk.face][0] = e;
+    corners_[walk.face] = {name(walk.owner->site), name(b), name(c)};
     walk.face += static_cast<std::size_t>(walk.owner->site < std::min(b, c)) &
                  static_cast<std::size_t>(!is_open(faces[e]));
     const auto is_last = static_cast<std::uint64_t>(walk.face == walk.owner->end);
@@ -138,9 +140,10 @@ class Emission {
     walk.owner += is_last;
   }
 
-  // Lists the faces in the order of their owners: each by the halfedge from the owner to the second
-  // corner, where its first neighbor will be.
-  void list_faces() {
+  // Writes the corners of the faces in the order of their owners and, where the first neighbor of each
+  // will be, the halfedge from the owner to the second corner.
+  template <class Name>
+  void write_corners(const Name& name) {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
@@ -155,25 +158,22 @@ class Emission {
     }
     const auto has_ended = [](const Walk& walk) { return walk.owner == walk.end; };
     while (!has_ended(walks[0]) && !has_ended(walks[1]) && !has_ended(walks[2])) {
-      for (Walk& walk : walks) step(walk, rings, targets, faces);
+      for (Walk& walk : walks) step(walk, rings, targets, faces, name);
     }
     for (Walk& walk : walks) {
-      while (!has_ended(walk)) step(walk, rings, targets, faces);
+      while (!has_ended(walk)) step(walk, rings, targets, faces, name);
     }
   }
 
-  // Names the listed faces. A name is kept with the three halfedges, four times, plus the number of the
-  // corner opposite to the halfedge.
-  template <class Name>
-  void write_corners(Name name) {
+  // Names the faces. A name is kept with the three halfedges, four times, plus the number of the corner
+  // opposite to the halfedge.
+  void name_faces() {
     const PlaneGraph::Links* const rings = graph_.rings();
-    const Index* const targets = graph_.targets();
     Index* const faces = graph_.faces();
     const Index num_faces = result_.faces_end - result_.faces_begin;
     for (Index face = 0; face < num_faces; ++face) {
       const Edge e = neighbors_[face][0];
       const Edge next = rings[e].next;
-      corners_[face] = {name(targets[e ^ 1]), name(targets[e]), name(targets[next])};
       faces[rings[e ^ 1].previous] = 4 * face;
       faces[next ^ 1] = 4 * face + 1;
       faces[e] = 4 * face + 2;
