@@ -22,10 +22,9 @@ using Owner = EmissionSpace::Owner;
 // So many owners ahead, halfedges are asked for.
 constexpr std::size_t num_ahead = 8;
 
-// Passes over edges, sites, owners, faces, and edges. The first one finds out how many faces a site owns and
-// which is the first, so that the second one need not go around sites twice. Neither has a branch that
-// depends on the input: several walks wait for memory at once instead. Where no face is open, nobody
-// asks.
+// Passes over edges, sites, owners, faces, and edges. The first one finds out how many faces a site
+// owns and which is the first, so that nothing goes around sites twice. Branches that depend on the
+// input are few: several walks wait for memory at once instead. Where no face is open, nobody asks.
 template <bool has_open>
 class Emission {
  public:
