@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Faces that did not change are in order already. Those that changed come behind them, owner by
-// owner; then the faces of an owner that has some that changed, or had some, are put in order by a
-// walk around it.
+// The faces are dealt to their owners, which are counted before: those that did not change are in
+// order then. The faces of an owner that has some that changed, or had some, are put in order by a walk
+// around it.
 
 #include "constrained/constrained_order.h"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 #include "system/large_arrays.h"
 #include "system/parallel.h"
@@ -23,28 +23,17 @@ using topology::next_corner;
 class FaceOrder {
  public:
   explicit FaceOrder(const FacesToOrder& all)
-      : all_(all), order_(all.faces.size() + 1), place_(all.faces.size()) {}
+      : all_(all), order_(all.faces.size()), place_(all.faces.size()) {}
 
   void run() {
-    list_changed();
-    const std::span<const Triple> faces = all_.faces;
-    std::size_t end = 0;
-    std::size_t f = 0;
-    for (Index v = 0; v < all_.names.size(); ++v) {
-      const std::size_t begin = end;
-      for (; f < faces.size(); ++f) {
-        const bool is_old = !all_.is_changed(f);
-        if (is_old && faces[f][0] != v) break;
-        // What is left out is overwritten: nothing predicts a branch here.
-        order_[end] = static_cast<Index>(f);
-        end += is_old ? 1 : 0;
-      }
-      for (Index g = changed_[v]; g != no_index; g = place_[g]) order_[end++] = g;
-      const std::span<Index> own = std::span(order_).subspan(begin, end - begin);
-      if (own.size() > 1 && all_.is_touched[v] != 0) sort_around(own);
-      for (std::size_t i = begin; i < end; ++i) place_[order_[i]] = static_cast<Index>(i);
+    const std::vector<Index> ends = deal();
+    Index begin = 0;
+    for (Index v = 0; v < ends.size(); ++v) {
+      const std::span<Index> own = std::span(order_).subspan(begin, ends[v] - begin);
+      if (all_.is_touched[v] != 0 && own.size() > 1) sort_around(own);
+      begin = ends[v];
     }
-    order_.pop_back();
+    for (Index i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
   }
 
   [[nodiscard]] const LargeVector<Index>& order() const { return order_; }
@@ -52,12 +41,14 @@ class FaceOrder {
   [[nodiscard]] const LargeVector<Index>& place() const { return place_; }
 
  private:
-  // Makes the lists of faces that changed; places that are not known yet have the next of a list.
-  void list_changed() {
-    changed_.assign(all_.names.size(), no_index);
-    for (Index f = 0; f < all_.faces.size(); ++f) {
-      if (all_.is_changed(f)) place_[f] = std::exchange(changed_[all_.faces[f][0]], f);
-    }
+  // Puts the faces of each owner next to each other, and returns for each owner where they end.
+  std::vector<Index> deal() {
+    std::vector<Index> next(all_.names.size() + 1);
+    for (const Triple& face : all_.faces) ++next[face[0] + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    for (Index f = 0; f < all_.faces.size(); ++f) order_[next[all_.faces[f][0]]++] = f;
+    next.pop_back();
+    return next;
   }
 
   // The face with the earlier second corner comes first, or the solid one if they have the same.
@@ -88,7 +79,6 @@ class FaceOrder {
   const FacesToOrder& all_;
   LargeVector<Index> order_;
   LargeVector<Index> place_;
-  std::vector<Index> changed_;  // by owner: the first face of its list
 };
 
 }  // namespace

@@ -35,7 +35,6 @@ struct FacesToOrder {
   std::span<const std::uint8_t> is_touched;
   std::span<const Index> names;  // by vertex
 
-  [[nodiscard]] bool is_changed(std::size_t f) const { return (states[f] & changed_face) != 0; }
   [[nodiscard]] bool is_solid(std::size_t f) const { return (states[f] & ghost_face) == 0; }
 };
 
