@@ -111,7 +111,7 @@ class Emission {
   }
 
   // Around one owner after the other, from the first face to the last.
-  struct Walk {
+  struct OwnerWalk {
     std::uint64_t at;  // second corner of the next face that may be owned, and halfedge to it
     std::size_t face;
     const Owner* owner;
@@ -120,8 +120,8 @@ class Emission {
 
   // One step around an owner, or to the next one.
   template <class Name>
-  RONDEL_ALWAYS_INLINE void step(Walk& walk, const PlaneGraph::Links* rings, const Index* targets,
-                                 const Index* faces, const Name& name) const {
+  RONDEL_ALWAYS_INLINE void step(OwnerWalk& walk, const PlaneGraph::Links* rings,
+                                 const Index* targets, const Index* faces, const Name& name) const {
     const auto e = static_cast<Edge>(walk.at);
     const auto b = static_cast<Index>(walk.at >> 32U);
     const Edge next = rings[e].next;
@@ -147,7 +147,7 @@ class Emission {
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
     constexpr std::size_t num_walks = 3;
-    std::array<Walk, num_walks> walks;
+    std::array<OwnerWalk, num_walks> walks;
     for (std::size_t k = 0; k < num_walks; ++k) {
       const std::size_t begin = num_owners_ * k / num_walks;
       const std::size_t end = num_owners_ * (k + 1) / num_walks;
@@ -155,11 +155,11 @@ class Emission {
       walks[k] = {owners[begin].first, begin == 0 ? 0 : owners[begin - 1].end, owners + begin,
                   owners + end};
     }
-    const auto has_ended = [](const Walk& walk) { return walk.owner == walk.end; };
+    const auto has_ended = [](const OwnerWalk& walk) { return walk.owner == walk.end; };
     while (!has_ended(walks[0]) && !has_ended(walks[1]) && !has_ended(walks[2])) {
-      for (Walk& walk : walks) step(walk, rings, targets, faces, name);
+      for (OwnerWalk& walk : walks) step(walk, rings, targets, faces, name);
     }
-    for (Walk& walk : walks) {
+    for (OwnerWalk& walk : walks) {
       while (!has_ended(walk)) step(walk, rings, targets, faces, name);
     }
   }
