@@ -45,7 +45,8 @@ RONDEL_API FeatureConstraints constraints_of_features(const FeatureLines& lines,
 /// Returns longitudes and latitudes of unit vectors as a file has them: those with the fewest
 /// decimals of which unit_vectors() makes the same points bit by bit, 10.5 in place of
 /// 10.499999999999998. For points that no longitude and latitude of up to 12 decimals gives it
-/// returns one of 13 decimals that does, or what lonlats() returns.
+/// returns one of 13 decimals that does, or another one that does, or what lonlats() returns: so
+/// points that unit_vectors() made are the same again.
 RONDEL_API std::vector<LonLat> short_lonlats(std::span<const Point> points);
 
 }  // namespace rondel

@@ -90,7 +90,9 @@ std::vector<LonLat> short_lonlats(std::span<const Point> points) {
   const system::ArithmeticScope arithmetic;
   std::vector<LonLat> positions = lonlats(points);
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    positions[i] = map::shortened(positions[i], points[i]);
+    const LonLat shorter = map::shortened(positions[i], points[i]);
+    const bool is_short = !(shorter == positions[i]);
+    positions[i] = is_short ? shorter : map::with_unit_vector(positions[i], points[i]);
   }
   return positions;
 }

@@ -113,6 +113,16 @@ LonLat shortened(const LonLat& position, const Point& p) {
   return fits(longest) ? longest : position;
 }
 
+LonLat with_unit_vector(const LonLat& position, const Point& p) {
+  LonLat found = position;
+  visit_around(position, 0, [&](const LonLat& candidate) {
+    if (!(point_at(candidate) == p)) return false;
+    found = candidate;
+    return true;
+  });
+  return found;
+}
+
 LonLat as_written(const LonLat& position, const Point& p) {
   constexpr double rounding_deg = 0x1p-44;  // of unit vectors and of their longitudes
   const LonLat written = with_decimals(position, 1e9);

@@ -7,8 +7,10 @@
 // out   unit vectors with longitudes and latitudes in degrees
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -65,6 +67,34 @@ enum class MapPositions : std::uint8_t { computed, written };
 // Returns the position with the fewest decimals that has this unit vector, if one of up to 12
 // decimals has; or one of 13 decimals next to the given one that has; or the given one.
 LonLat shortened(const LonLat& position, const Point& p);
+
+// Calls visit(candidate) for a position and those around it, the nearest first, until it returns true:
+// up to four steps in both numbers, of a unit in the last place but at least `least_step` degrees.
+// Latitudes stay on the sphere.
+template <class Visit>
+void visit_around(const LonLat& position, double least_step, const Visit& visit) {
+  constexpr int farthest = 4;
+  const auto step_of = [&](double x) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return std::max(std::nextafter(std::abs(x), infinity) - std::abs(x), least_step);
+  };
+  const double lon_step = step_of(position.lon_deg);
+  const double lat_step = step_of(position.lat_deg);
+  for (int radius = 0; radius <= farthest; ++radius) {
+    for (int i = -radius; i <= radius; ++i) {
+      // Only the first and the last rows of the square are whole.
+      const int step = std::abs(i) == radius ? 1 : 2 * radius;
+      for (int j = -radius; j <= radius; j += step) {
+        const LonLat candidate = {position.lon_deg + i * lon_step, position.lat_deg + j * lat_step};
+        if (std::abs(candidate.lat_deg) <= 90 && visit(candidate)) return;
+      }
+    }
+  }
+}
+
+// Returns a position within some units in the last place of the given one that has this unit vector,
+// the nearest of them; or the given one if there is none.
+LonLat with_unit_vector(const LonLat& position, const Point& p);
 
 // Returns the position that stands for a point in a file: the shortened() one, but each coordinate
 // that is a number of up to 9 decimals up to rounding is that number.
