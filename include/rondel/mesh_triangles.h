@@ -77,6 +77,10 @@ struct DomainTriangles {
 /// borders and lines; triangulates them (rondel/constrained.h), with nodes where they cross; fills
 /// narrow water and leaves small parts out, if that is wanted; and refines (rondel/mesh_refine.h).
 ///
+/// Features that touch up to rounding are welded: corners that are nearer to another corner, or to a
+/// side, than 1e-4 of the spacing and than the tolerance, or than 1e-12 radians, are put there. A gap as
+/// narrow as that would have triangles of its size.
+///
 /// Where the coasts leave an open hemisphere free and there is no area, corners of an icosahedron
 /// are nodes there.
 /// \throws InvalidInput as constraints_of_features() (the feature, counted over coast, area and
@@ -88,8 +92,10 @@ RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOp
                                      const Execution& execution = {});
 
 /// Makes a mesh for files of the triangles of a domain: edges that follow a coast are coast, the rest
-/// of the border is open.
-/// \throws InvalidInput as triangle_mesh() does for points and triangles
+/// of the border is open. The nodes have positions with few decimals where these are theirs. Triangles
+/// are counterclockwise by these, too, for which some nodes move by less than 1e-13 degrees.
+/// \throws InvalidInput as triangle_mesh() does for points and triangles; and (the position of the
+///         triangle) if one is so narrow that it has no area in degrees
 RONDEL_API TriangleMesh triangle_mesh(const DomainTriangles& triangles);
 
 }  // namespace rondel::mesh

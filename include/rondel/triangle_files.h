@@ -41,14 +41,17 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 /// FESOM all three together, in a folder that is made if there is none.
 ///
 /// 1. Numbers have the shortest digits that give back the same bits. Degrees are `positions` or,
-///    where the mesh has none, those of lonlats(). Gmsh's x, y, z are `points`, of the length that
+///    where the mesh has none, those with few decimals where these are the node's. Where rounding
+///    them turns a sliver over, one of its nodes moves by less than 1e-13 degrees, so that triangles are
+///    counterclockwise by the numbers in the file. Gmsh's x, y, z are `points`, of the length that
 ///    they have.
 /// 2. What a format cannot hold is left out: ADCIRC's numbers in all but ADCIRC's and SCHISM's files
 ///    and UGRID; `levels` in all but FESOM's; kinds and order of segments in FESOM's, which marks
 ///    the nodes of the border. Open segments come first in ADCIRC's and SCHISM's files.
 /// 3. Where depths are needed and the mesh has none, they are 0. FESOM needs at least three levels:
 ///    without levels they are 0, half of the largest depth, and the largest depth.
-/// \throws InvalidInput as require_valid() does; for FESOM (the node) if a depth is negative
+/// \throws InvalidInput as require_valid() does; (the position of the triangle) if one has no area in
+///         degrees all the same; for FESOM (the node) if a depth is negative
 /// \throws FileError for other endings, and if the system refuses
 RONDEL_API void write_triangle_mesh(const FileName& file, const TriangleMesh& mesh,
                                     const NetcdfOptions& netcdf = {},

@@ -10,13 +10,14 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "formats/ocean_lines.h"
 #include "io/atomic_file.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
-#include "rondel/delaunay.h"
+#include "meshing/sound_positions.h"
 #include "rondel/error.h"
 #include "system/job.h"
 
@@ -43,6 +44,12 @@ constexpr std::array<OceanFormat, 10> ocean_formats = {
 
 const OceanFormat* ocean_format(const FileName& file) {
   return io::find_format<OceanFormat>(ocean_formats, file);
+}
+
+// True if a file has x, y and z of its nodes; others have longitudes and latitudes.
+bool is_gmsh(const FileName& file) {
+  const OceanFormat* const format = ocean_format(file);
+  return format != nullptr && format->read == &formats::read_gmsh;
 }
 
 constexpr std::string_view fesom_nodes = "nod2d.out";
@@ -127,8 +134,9 @@ void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
                          const NetcdfOptions& netcdf, const Execution& execution) {
   const system::Call call(execution);
   require_valid(mesh);
+  const bool is_in_space = is_gmsh(name);
   const formats::MeshOfFile content = {
-      mesh, mesh.positions.empty() ? lonlats(mesh.points) : mesh.positions, execution};
+      mesh, is_in_space ? std::vector<LonLat>() : meshing::sound_positions(mesh), execution};
   if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
   const OceanFormat* const format = ocean_format(name);
   if (format == nullptr && !is_ugrid_file(name)) {

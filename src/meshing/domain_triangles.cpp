@@ -16,17 +16,17 @@
 #include "meshing/narrow_water.h"
 #include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
+#include "meshing/sound_positions.h"
+#include "meshing/weld.h"
 #include "order/spatial_order.h"
 #include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
-#include "rondel/predicates.h"
 #include "rondel/simplify.h"
 #include "system/arithmetic.h"
 #include "system/disjoint_sets.h"
 #include "system/job.h"
-#include "system/message_text.h"
 
 namespace rondel::mesh {
 namespace {
@@ -165,6 +165,7 @@ class TrianglesOfDomain {
   // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
   void triangulate() {
     features_ = constraints_of_features(all_.lines, all_.polygons);
+    weld_features();
     triangulate_sites();
     const Triangulation& first = triangulation_.triangulation;
     bool is_found = false;
@@ -183,6 +184,18 @@ class TrianglesOfDomain {
     if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
       refuse_land();
     }
+  }
+
+  // Closes gaps that only rounding leaves between features: of numbers in files, as the spacing sees
+  // it, and of unit vectors.
+  void weld_features() {
+    constexpr double share = 1e-4;
+    constexpr double least = 1e-12;
+    const auto& spacing = options_.refine.spacing;
+    meshing::weld(features_, [&](const Point& place) {
+      const double near = spacing ? share * spacing->spacing(place) : 0;
+      return std::max(least, std::min(near, options_.tolerance.value_or(near)));
+    });
   }
 
   // Makes sites of crossings only if there are any, which takes longer.
@@ -351,21 +364,6 @@ void require_shares(const TrianglesOptions& options) {
   }
 }
 
-// Throws InvalidInput that says where a triangle has no area once its corners are longitudes and
-// latitudes, as files have them.
-void require_areas_in_degrees(const TriangleMesh& mesh) {
-  const system::ArithmeticScope arithmetic;
-  const std::vector<LonLat> positions = lonlats(mesh.points);
-  const std::vector<Point> points = unit_vectors(positions);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    if (orientation(points[a], points[b], points[c]) == Sign::positive) continue;
-    throw InvalidInput("coasts, borders or lines come so near to each other at longitude " +
-                       system::shortest_text(positions[a].lon_deg) + ", latitude " +
-                       system::shortest_text(positions[a].lat_deg) +
-                       " that a triangle between them has no area in degrees");
-  }
-}
-
 }  // namespace
 
 std::string_view name_of(FeatureOfEdge feature) noexcept {
@@ -389,7 +387,7 @@ TriangleMesh triangle_mesh(const DomainTriangles& triangles) {
   }
   TriangleMesh mesh = triangle_mesh(triangles.mesh.nodes, {}, triangles.mesh.triangles,
                                     std::span(std::as_const(coast)));
-  require_areas_in_degrees(mesh);
+  mesh.positions = meshing::sound_positions(mesh);
   return mesh;
 }
 
