@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,9 +38,19 @@ struct GridMapping {
 };
 
 /// Returns the name of the grid on which points are by the attributes of a variable or of a file: the
-/// pixels of HEALPix by its grid mapping, as CF has it or as tools had it before, or what
-/// `grid_attribute` says; an empty text if they say neither.
+/// pixels of HEALPix by its grid mapping, as CF has it or as tools had it before, in any case of
+/// letters, or what `grid_attribute` says; an empty text if they say neither.
 RONDEL_API std::string grid_named_by(const GridMapping& attributes);
+
+/// Returns what lacks in attributes that say that points are pixels of HEALPix, so that
+/// grid_named_by() does not know which ones: "refinement_level or healpix_nside ..."; an empty text
+/// for other attributes.
+RONDEL_API std::string lack_of_mapping(const GridMapping& attributes);
+
+/// True if a variable may have the numbers of those pixels of HEALPix that data are at: by its
+/// standard_name `healpix_index` (CF 1.13), or, without a standard_name, by a name that tools give
+/// it: `cell`, `cell_ids`, `healpix_index`, `healpix`, `hpx`, `ipix`, `pix` or `pixel`.
+RONDEL_API bool may_number_pixels(std::string_view name, std::string_view standard_name);
 
 /// A grid that is given by its name; all cover the sphere but `tripolar:`, which has no cells in the
 /// Antarctic:
@@ -99,6 +110,16 @@ class RONDEL_API NamedGrid {
   [[nodiscard]] std::vector<LonLat> centers() const;
   /// Returns the cells, whose facts() have the name, the shape and the centers.
   [[nodiscard]] CellSet cells(const Execution& execution = {}) const;
+  /// Returns some of the cells, with their centers.
+  /// \param numbers  those of the cells, in any order
+  /// \throws InvalidInput for `grid:` and `F`, whose cells are between lines; and with the index of a
+  ///         number that no cell has, or that is there twice
+  [[nodiscard]] CellSet cells(std::span<const Index> numbers,
+                              const Execution& execution = {}) const;
+  /// Returns the numbers of the cells whose centers are at most `max_apart_deg` degrees from places;
+  /// nothing if one of the places is no center or two of them are the same, and for `grid:` and `F`.
+  [[nodiscard]] std::vector<Index> numbers_at(std::span<const LonLat> places, double max_apart_deg,
+                                              const Execution& execution = {}) const;
 
  private:
   friend class TiledCells;

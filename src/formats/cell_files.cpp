@@ -279,9 +279,10 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
   if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
-  if (const std::string grid = formats::grid_named_by_file(file); !grid.empty()) {
+  if (const formats::GridOfFile grid = formats::grid_of_file(file, true); !grid.name.empty()) {
     try {
-      return NamedGrid(grid, options.sides).cells(execution);
+      const NamedGrid named(grid.name, options.sides);
+      return grid.numbers.empty() ? named.cells(execution) : named.cells(grid.numbers, execution);
     } catch (const InvalidInput& error) {
       throw FileError(file.path + ": " + error.what());
     }

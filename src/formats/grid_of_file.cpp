@@ -5,18 +5,25 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
+#include <numeric>
+#include <optional>
 #include <span>
+#include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "formats/cf_reader.h"
 #include "formats/cf_values.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
+#include "io/number.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "rondel/named_grids.h"
+#include "system/message_text.h"
 
 namespace rondel::formats {
 namespace {
@@ -30,22 +37,6 @@ GridMapping mapping_of(std::span<const io::NetcdfAttribute> attributes) {
     mapping.numbers.emplace_back(attribute.name, attribute.numbers.front());
   }
   return mapping;
-}
-
-// True if the file has the dimensions of the grid, and its places if it has any. A file may also have
-// some of the grid's points, with their longitudes and latitudes.
-bool is_on(const io::NetcdfReader& reader, const std::string& name) {
-  const auto has = [&](std::uint64_t length) {
-    return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
-  };
-  try {
-    const NamedGrid grid(name);
-    if (!has(grid.num_cells()) && !std::ranges::all_of(grid.shape(), has)) return false;
-    return may_be_at(
-        reader, {grid.num_cells(), grid.axes(), [&](std::size_t i) { return grid.center(i); }});
-  } catch (const InvalidInput& error) {
-    throw io::BadValue(error.what());
-  }
 }
 
 constexpr double max_apart_deg = 1e-4;  // of coordinates in single precision
@@ -114,6 +105,155 @@ class PlaceSamples {
   std::array<double, 2> units_{};
 };
 
+// Collects the numbers of cells that a file has, from the first one that is not in order on.
+class NumberCollector {
+ public:
+  explicit NumberCollector(std::size_t num_cells, std::size_t count)
+      : num_cells_(num_cells), is_in_order_(count == num_cells) {}
+
+  // Adds a number. Returns false if no cell has it.
+  bool add(double number) {
+    if (!(number >= 0) || number >= static_cast<double>(num_cells_) || number != std::floor(number))
+      return false;
+    if (is_in_order_ && number != static_cast<double>(count_)) {
+      is_in_order_ = false;
+      numbers_.resize(count_);
+      std::iota(numbers_.begin(), numbers_.end(), Index{0});
+    }
+    if (!is_in_order_) numbers_.push_back(static_cast<Index>(number));
+    ++count_;
+    return true;
+  }
+  // Returns the numbers, none if they are those of all cells in order.
+  std::vector<Index> take() { return std::move(numbers_); }
+  // Returns a number that is there twice, or no_index.
+  [[nodiscard]] Index repeated() const {
+    std::vector<bool> is_there(is_in_order_ ? 0 : num_cells_);
+    for (const Index number : numbers_) {
+      if (is_there[number]) return number;
+      is_there[number] = true;
+    }
+    return no_index;
+  }
+
+ private:
+  std::size_t num_cells_;
+  std::size_t count_ = 0;
+  bool is_in_order_;
+  std::vector<Index> numbers_;
+};
+
+// Reads the numbers of pixels that a variable has, as GridOfFile has them. Returns nothing if they
+// are others, or throws BadValue, if its standard_name says that they are those of pixels.
+std::optional<std::vector<Index>> numbers_in(const io::NetcdfReader& reader,
+                                             const io::VariableInFile& variable,
+                                             const NamedGrid& grid) {
+  constexpr std::size_t at_once = std::size_t{1} << 16;
+  NumberCollector numbers(grid.num_cells(), variable.num_values);
+  const ValueRules rules(variable);
+  std::string why;
+  std::vector<double> values;
+  for (std::uint64_t begin = 0; begin < variable.num_values && why.empty(); begin += at_once) {
+    values.resize(std::min<std::uint64_t>(at_once, variable.num_values - begin));
+    reader.read_numbers(variable, begin, values);
+    rules.apply(values);
+    const auto bad = std::ranges::find_if_not(values, [&](double v) { return numbers.add(v); });
+    if (bad != values.end()) {
+      why = "has the number " + system::shortest_text(*bad) + ", which is not one of the " +
+            std::to_string(grid.num_cells()) + " pixels of " + io::in_quotes(grid.name());
+    }
+  }
+  if (why.empty()) {
+    const Index repeated = numbers.repeated();
+    if (repeated == no_index) return numbers.take();
+    why = "has the number " + std::to_string(repeated) + " of a pixel twice";
+  }
+  if (header_of(reader, variable).text("standard_name").empty()) return std::nullopt;
+  throw io::BadValue("variable " + io::in_quotes(variable.name) + " " + why);
+}
+
+// Returns the numbers of pixels that the file has, as GridOfFile has them, or nothing.
+std::optional<std::vector<Index>> pixels_of(const io::NetcdfReader& reader, const NamedGrid& grid) {
+  for (const io::VariableInFile& variable : reader.variables()) {
+    const VariableHeader header = header_of(reader, variable);
+    if (!header.is_number || variable.shape.size() != 1 || variable.num_values == 0 ||
+        !may_number_pixels(header.name, header.text("standard_name"))) {
+      continue;
+    }
+    if (auto numbers = numbers_in(reader, variable, grid)) return numbers;
+  }
+  return std::nullopt;
+}
+
+// Returns the numbers of the cells whose centers are the places of a file without bounds, or nothing.
+std::vector<Index> numbers_of_places(const io::NetcdfReader& reader, const NamedGrid& grid) {
+  const std::vector<VariableHeader> headers = headers_of(reader);
+  const std::vector<CoordinatePair> pairs = find_coordinates(headers);
+  if (pairs.empty()) return {};
+  const CoordinatePair& pair = pairs.front();
+  if (pair.are_axes || pair.lon_bounds != CoordinatePair::none) return {};
+  const PlaceArrays found =
+      places_of(reader, reader.variables()[pair.lon], reader.variables()[pair.lat]);
+  if (found.shape.size() != 1) return {};
+  std::vector<LonLat> places;
+  for (std::size_t i = 0; i < found.lon.size(); ++i) places.push_back({found.lon[i], found.lat[i]});
+  return grid.numbers_at(places, max_apart_deg);
+}
+
+// Returns the grid that attributes name, if the file has cells of it, or else one without a name.
+GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes,
+                   bool needs_cells) {
+  const std::string name = grid_named_by(attributes);
+  if (name.empty()) return {};
+  const auto has = [&](std::uint64_t length) {
+    return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
+  };
+  try {
+    const NamedGrid grid(name);
+    if (name.starts_with("healpix:")) {
+      if (auto numbers = pixels_of(reader, grid)) {
+        const bool are_all = numbers->empty();
+        const auto center = [&](std::size_t i) { return grid.center(are_all ? i : (*numbers)[i]); };
+        const std::uint64_t count = are_all ? grid.num_cells() : numbers->size();
+        if (!may_be_at(reader, {count, nullptr, center})) return {};
+        return {name, std::move(*numbers)};
+      }
+    }
+    const auto center = [&](std::size_t i) { return grid.center(i); };
+    // A file may also have some of the grid's points, with their longitudes and latitudes.
+    if ((has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has)) &&
+        may_be_at(reader, {grid.num_cells(), grid.axes(), center})) {
+      return {name, {}};
+    }
+    if (!needs_cells) return {};
+    std::vector<Index> numbers = numbers_of_places(reader, grid);
+    return numbers.empty() ? GridOfFile() : GridOfFile{name, std::move(numbers)};
+  } catch (const InvalidInput& error) {
+    throw io::BadValue(error.what());
+  }
+}
+
+// Throws BadValue for a file with a grid mapping of HEALPix that has neither these pixels nor
+// longitudes and latitudes.
+void require_pixels(const io::NetcdfReader& reader) {
+  for (const io::VariableInFile& variable : reader.variables()) {
+    const GridMapping mapping = mapping_of(variable.attributes);
+    const std::string lack = lack_of_mapping(mapping);
+    const std::string name = grid_named_by(mapping);
+    if ((lack.empty() && !name.starts_with("healpix:")) ||
+        !find_coordinates(headers_of(reader)).empty()) {
+      continue;
+    }
+    const std::string start =
+        "variable " + io::in_quotes(variable.name) + " is the grid mapping of ";
+    if (!lack.empty()) throw io::BadValue(start + "HEALPix, but has no " + lack);
+    throw io::BadValue(start + io::in_quotes(name) + " with " +
+                       std::to_string(NamedGrid(name).num_cells()) +
+                       " pixels, but no dimension is as long, and no variable has the numbers of "
+                       "some of them, as a variable with the standard_name healpix_index");
+  }
+}
+
 }  // namespace
 
 bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
@@ -140,7 +280,7 @@ bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
 }
 
 // A pipe and standard input can be read once, which is left to the reader of their content.
-std::string grid_named_by_file(const FileName& file) {
+GridOfFile grid_of_file(const FileName& file, bool needs_cells) {
   std::error_code error;
   const bool is_pipe = std::filesystem::exists(file.path, error) &&
                        !std::filesystem::is_regular_file(file.path, error);
@@ -149,13 +289,14 @@ std::string grid_named_by_file(const FileName& file) {
   if (!io::is_netcdf(bytes.head())) return {};
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
-    std::string name = grid_named_by(mapping_of(reader.attributes()));
-    if (!name.empty() && is_on(reader, name)) return name;
+    GridOfFile grid = grid_by(reader, mapping_of(reader.attributes()), needs_cells);
+    if (!grid.name.empty()) return grid;
     for (const io::VariableInFile& variable : reader.variables()) {
-      name = grid_named_by(mapping_of(variable.attributes));
-      if (!name.empty() && is_on(reader, name)) return name;
+      grid = grid_by(reader, mapping_of(variable.attributes), needs_cells);
+      if (!grid.name.empty()) return grid;
     }
-    return std::string();
+    require_pixels(reader);
+    return grid;
   });
 }
 

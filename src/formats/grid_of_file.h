@@ -4,16 +4,18 @@
 // Finds the grid that a netCDF file names: that of regrid's outputs, whose points have no bounds.
 //
 // in    a file
-// out   the name of a grid (rondel/named_grids.h)
+// out   the name of a grid (rondel/named_grids.h), and which of its cells the file has
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "io/netcdf_reader.h"
 #include "rondel/cell_rings.h"
 #include "rondel/io.h"
+#include "rondel/types.h"
 
 namespace rondel::formats {
 
@@ -29,9 +31,17 @@ struct PlacesOfGrid {
 // them.
 bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid);
 
-// Returns the name of the grid that netCDF says its points are on, if it has the dimensions of that
-// grid and no other places, as after it was turned upside down; an empty text for other files. The name of a variable (FILE.nc:NAME) is ignored. Throws
-// FileError for a file that cannot be read, or names a grid that is none.
-std::string grid_named_by_file(const FileName& file);
+// The grid on which a file says that its points are.
+struct GridOfFile {
+  std::string name;            // empty if it says nothing of a grid
+  std::vector<Index> numbers;  // those of its cells that are in the file; empty for all in order
+};
+
+// Returns the grid that netCDF says its points are on: if it has the numbers of pixels, or else the
+// dimensions of that grid and no other places; and, with `needs_cells`, if its places are centers of
+// some cells and it has no bounds. The name of a variable (FILE.nc:NAME) is ignored. Throws FileError
+// for a file that cannot be read, names a grid that is none, or has neither longitudes and latitudes
+// nor the pixels of which its grid mapping speaks.
+GridOfFile grid_of_file(const FileName& file, bool needs_cells);
 
 }  // namespace rondel::formats

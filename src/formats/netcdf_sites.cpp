@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "formats/cf_reader.h"
+#include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
@@ -20,6 +21,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
+#include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
 #include "system/job.h"
 
@@ -74,6 +76,23 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
   } catch (const FileError&) {
     return std::nullopt;  // fields need no cells
   }
+}
+
+// Returns the centers of the cells of the named grid that a file without longitudes and latitudes says
+// it has: the pixels of HEALPix, whose files need no places.
+std::vector<LonLat> centers_of_grid(const FileName& file) {
+  io::FileBytes bytes(file, true);
+  const bool has_places = io::in_file(bytes.name(), [&] {
+    return !find_coordinates(formats::headers_of(io::NetcdfReader(bytes))).empty();
+  });
+  if (has_places) return {};
+  const formats::GridOfFile found = formats::grid_of_file(file, false);
+  if (found.name.empty()) return {};
+  const NamedGrid grid(found.name);
+  if (found.numbers.empty()) return grid.centers();
+  std::vector<LonLat> centers;
+  for (const Index number : found.numbers) centers.push_back(grid.center(number));
+  return centers;
 }
 
 // Returns the middles of edges on which a variable is whose file has no places of edges.
@@ -281,7 +300,8 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
   if (std::optional<NetcdfSites> centers = centers_of_cells(file, named.name)) {
     sites = std::move(*centers);
   } else {
-    sites.table.positions = middles_for(file, named.name);
+    sites.table.positions = centers_of_grid(file);
+    if (sites.table.positions.empty()) sites.table.positions = middles_for(file, named.name);
     if (sites.table.positions.empty()) sites = centers_or_none(file, named.name);
   }
   const std::size_t num_centers = sites.table.positions.size();

@@ -211,7 +211,7 @@ VoronoiMesh mesh_of_centers(const CellTable& table, const MeshOptions& options,
 VoronoiMesh read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
                       std::vector<std::string>* remarks) {
   const system::Call call(execution);
-  if (const std::string grid = formats::grid_named_by_file(file); !grid.empty()) {
+  if (const std::string grid = formats::grid_of_file(file, false).name; !grid.empty()) {
     throw FileError(file.path + ": its points are those of the grid '" + grid +
                     "', whose cells are no Voronoi cells, as a mesh has them");
   }

@@ -80,13 +80,18 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
     : name_(file.path), options_(options) {
   require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
-  const std::string grid = is_name ? file.path : grid_named_by_file(file);
-  if (grid.empty()) {
+  const GridOfFile grid = is_name ? GridOfFile{file.path, {}} : grid_of_file(file, has_cells);
+  if (grid.name.empty()) {
     read_file(file, has_cells, execution, names);
     return;
   }
   try {
-    named_.emplace(grid, options.sides);
+    NamedGrid named(grid.name, options.sides);
+    if (!grid.numbers.empty()) {
+      take_some(named, grid.numbers, has_cells, execution);
+      return;
+    }
+    named_ = std::move(named);
   } catch (const InvalidInput& error) {
     throw FileError((is_name ? "" : file.path + ": ") + error.what());
   }
@@ -140,6 +145,13 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
   places_ = cells_->places();
   if (!facts.axes.lon_deg.empty()) axes_ = facts.axes;
   if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
+}
+
+void RegridSide::take_some(const NamedGrid& grid, std::span<const Index> numbers, bool has_cells,
+                           const Execution& execution) {
+  for (const Index number : numbers) places_.push_back(grid.center(number));
+  shape_ = {numbers.size()};
+  if (has_cells) cells_ = grid.cells(numbers, execution);
 }
 
 std::size_t RegridSide::num_places() const {

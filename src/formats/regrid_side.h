@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,9 @@ class RegridSide {
  private:
   void read_file(const FileName& file, bool has_cells, const Execution& execution,
                  std::vector<std::string> names);
+  // Takes some cells of a grid with a name, which are no grid of their own.
+  void take_some(const NamedGrid& grid, std::span<const Index> numbers, bool has_cells,
+                 const Execution& execution);
   void make_cells(const Execution& execution);
 
   std::string name_;

@@ -9,14 +9,19 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/angles.h"
+#include "exact/vector.h"
 #include "grids/formula_cells.h"
 #include "grids/gaussian_lines.h"
 #include "grids/grid_formula.h"
 #include "io/bad_value.h"
 #include "io/number.h"
 #include "meshing/point_rings.h"
+#include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/extrapolate.h"
 #include "rondel/named_grids.h"
+#include "rondel/query.h"
 #include "system/arithmetic.h"
 #include "system/job.h"
 
@@ -35,6 +40,7 @@ constexpr double max_tripolar_columns = 60'000;
 // The names of kinds of grids, before what says which one.
 constexpr std::string_view global_kind = "grid:";
 constexpr std::string_view healpix_kind = "healpix:";
+constexpr std::string_view healpix_text = "healpix";  // of attributes
 constexpr std::string_view hexagon_kind = "hexagons:";
 constexpr std::string_view tripolar_kind = "tripolar:";
 
@@ -108,12 +114,20 @@ std::pair<LonLatGrid, LonLatAxes> gaussian_grid(std::uint64_t number) {
   return {std::move(lines), std::move(axes)};
 }
 
+std::string in_lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
 // Returns the pixels that the text after "healpix:" describes.
 std::unique_ptr<grids::GridFormula> healpix(std::string_view text, std::string_view name,
                                             GridSides sides) {
   const std::size_t colon = text.find(':');
-  const std::string_view scheme =
-      colon == std::string_view::npos ? "nested" : text.substr(colon + 1);
+  const std::string scheme = colon == std::string_view::npos
+                                 ? "nested"
+                                 : in_lower_case(std::string(text.substr(colon + 1)));
   if (scheme != "nested" && scheme != "ring") refuse(name, "the order is nested or ring");
   const auto order = static_cast<unsigned>(
       number_in(text.substr(0, colon), 0, max_healpix_order, name, "the level of HEALPix"));
@@ -197,33 +211,78 @@ std::unique_ptr<grids::GridFormula> formula_of(std::string_view name, GridSides 
   }
 }
 
+std::string text_of(const GridMapping& attributes, std::string_view name) {
+  for (const auto& [key, text] : attributes.texts) {
+    if (key == name) return text;
+  }
+  return {};
+}
+
+// Returns a number, or -1 if there is none.
+double number_of(const GridMapping& attributes, std::string_view name) {
+  for (const auto& [key, number] : attributes.numbers) {
+    if (key == name) return number;
+  }
+  return -1;
+}
+
+bool is_of_pixels(const GridMapping& attributes) {
+  return in_lower_case(text_of(attributes, "grid_mapping_name")) == healpix_text ||
+         in_lower_case(text_of(attributes, "grid_name")) == healpix_text;  // as xdggs has it
+}
+
+// Returns the level of pixels that attributes have, or -1 if they have none.
+int level_of(const GridMapping& attributes) {
+  double level = number_of(attributes, "refinement_level");
+  if (level < 0) level = number_of(attributes, "level");
+  double side = number_of(attributes, "healpix_nside");
+  if (side < 0) side = number_of(attributes, "nside");
+  for (unsigned k = 0; level < 0 && k <= max_healpix_order; ++k) {
+    if (side == static_cast<double>(1U << k)) level = k;
+  }
+  if (!(level >= 0) || level > max_healpix_order || level != std::floor(level)) return -1;
+  return static_cast<int>(level);
+}
+
+// Returns in which order attributes say that pixels are, "ring" or "nested", or an empty text.
+std::string order_of(const GridMapping& attributes) {
+  std::string order = text_of(attributes, "indexing_scheme");
+  if (order.empty()) order = text_of(attributes, "healpix_order");
+  order = in_lower_case(std::move(order));
+  if (order == "ring") return order;
+  return order == "nested" || order == "nest" ? "nested" : "";
+}
+
 }  // namespace
 
 std::string grid_named_by(const GridMapping& attributes) {
-  const auto text_of = [&](std::string_view name) {
-    for (const auto& [key, text] : attributes.texts) {
-      if (key == name) return text;
-    }
-    return std::string();
-  };
-  const auto number_of = [&](std::string_view name) {
-    for (const auto& [key, number] : attributes.numbers) {
-      if (key == name) return number;
-    }
-    return -1.0;
-  };
-  if (std::string name = text_of(grid_attribute); NamedGrid::is_name(name)) return name;
-  if (text_of("grid_mapping_name") != "healpix") return {};
-  double level = number_of("refinement_level");
-  for (unsigned k = 0; level < 0 && k <= max_healpix_order; ++k) {
-    if (number_of("healpix_nside") == static_cast<double>(1U << k)) level = k;
+  if (std::string name = text_of(attributes, grid_attribute); NamedGrid::is_name(name)) return name;
+  if (!is_of_pixels(attributes)) return {};
+  const int level = level_of(attributes);
+  const std::string order = order_of(attributes);
+  if (level < 0 || order.empty()) return {};
+  return "healpix:" + std::to_string(level) + ":" + order;
+}
+
+std::string lack_of_mapping(const GridMapping& attributes) {
+  if (!is_of_pixels(attributes)) return {};
+  std::string lack;
+  if (level_of(attributes) < 0) {
+    lack = "refinement_level (0 to 13) or healpix_nside (a power of two up to 8192)";
   }
-  if (level < 0 || level > max_healpix_order || level != std::floor(level)) return {};
-  std::string order = text_of("indexing_scheme");
-  if (order.empty()) order = text_of("healpix_order");
-  if (order != "ring" && order != "nested" && order != "nest") return {};
-  return "healpix:" + std::to_string(static_cast<int>(level)) +
-         (order == "ring" ? ":ring" : ":nested");
+  if (order_of(attributes).empty()) {
+    lack += std::string(lack.empty() ? "" : ", and ") +
+            "indexing_scheme or healpix_order (nested or ring)";
+  }
+  return lack;
+}
+
+bool may_number_pixels(std::string_view name, std::string_view standard_name) {
+  constexpr std::string_view index = "healpix_index";
+  if (!standard_name.empty()) return standard_name == index;
+  constexpr std::array<std::string_view, 8> names = {"cell", "cell_ids", index, "healpix",
+                                                     "hpx",  "ipix",     "pix", "pixel"};
+  return std::ranges::find(names, name) != names.end();
 }
 
 bool NamedGrid::is_name(std::string_view text) {
@@ -240,7 +299,9 @@ std::string_view NamedGrid::forms() {
          "hexagons:R2B6 and tripolar:DEG";
 }
 
-NamedGrid::NamedGrid(std::string_view name, GridSides sides) : name_(name), sides_(sides) {
+NamedGrid::NamedGrid(std::string_view name, GridSides sides)
+    : name_(name.starts_with(healpix_kind) ? in_lower_case(std::string(name)) : name),
+      sides_(sides) {
   const system::ArithmeticScope arithmetic;
   if (!is_name(name)) {
     refuse(name, "grids are " + std::string(forms()) + ", with any numbers");
@@ -307,6 +368,45 @@ CellSet NamedGrid::cells(const Execution& execution) const {
   facts.name = name_;
   facts.axes = *axes_;
   return cells.with_facts(std::move(facts));
+}
+
+CellSet NamedGrid::cells(std::span<const Index> numbers, const Execution& execution) const {
+  const system::Call call(execution);
+  if (!formula_) throw InvalidInput("the cells of '" + name_ + "' are between lines");
+  std::vector<bool> is_there(num_cells_);
+  CellFacts facts;
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Index number = numbers[k];
+    if (number >= num_cells_ || is_there[number]) {
+      throw InvalidInput(number < num_cells_
+                             ? "the cell " + std::to_string(number) + " is there twice"
+                             : "'" + name_ + "' has no cell " + std::to_string(number),
+                         k);
+    }
+    is_there[number] = true;
+    facts.centers.push_back(formula_->center(number));
+  }
+  facts.name = "cells of " + name_;  // a name of its own, as it is not that grid
+  facts.shape = {numbers.size()};
+  return grids::cells_of(*formula_, numbers, execution).with_facts(std::move(facts));
+}
+
+std::vector<Index> NamedGrid::numbers_at(std::span<const LonLat> places, double max_apart_deg,
+                                         const Execution& execution) const {
+  const system::Call call(execution);
+  if (!formula_ || places.empty() || places.size() > num_cells_) return {};
+  const std::vector<Point> sites = unit_vectors(centers());
+  const std::vector<Point> points = known_unit_vectors(places);
+  std::vector<Index> nearest = Locator(delaunay(sites, {}, execution)).nearest(points, execution);
+  const double max_apart = max_apart_deg / exact::degrees_per_radian;
+  std::vector<bool> is_there(num_cells_);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Point apart = points[k] - sites[nearest[k]];
+    const bool is_known = std::isfinite(places[k].lon_deg) && std::isfinite(places[k].lat_deg);
+    if (!is_known || is_there[nearest[k]] || dot(apart, apart) > max_apart * max_apart) return {};
+    is_there[nearest[k]] = true;
+  }
+  return nearest;
 }
 
 }  // namespace rondel

@@ -107,6 +107,25 @@ void test_grid(const NamedGrid& grid, const CellSet& cells) {
   require(
       mapping.texts.empty() || NamedGrid(grid_named_by(mapping)).num_cells() == grid.num_cells(),
       "points say on which grid they are");
+  require(lack_of_mapping(mapping).empty(), "nothing lacks in what a grid says");
+}
+
+// Some cells are those of the whole grid, and are known by their centers.
+void test_some(const NamedGrid& grid, const CellSet& cells) {
+  require(may_number_pixels("cell", {}) && !may_number_pixels("cell", "time"),
+          "a standard_name counts before a name");
+  if (grid.axes() != nullptr) return;
+  std::vector<Index> numbers;
+  std::vector<LonLat> places;
+  for (std::size_t i = grid.num_cells() % 7; i < grid.num_cells(); i += 1 + i % 50) {
+    numbers.push_back(static_cast<Index>(grid.num_cells() - 1 - i));
+    places.push_back(grid.center(numbers.back()));
+  }
+  const CellSet some = grid.cells(numbers);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    require(std::abs(some.areas()[k] - cells.areas()[numbers[k]]) < 1e-12, "cells keep their area");
+  }
+  require(grid.numbers_at(places, 1e-4) == numbers, "centers tell the numbers of cells");
 }
 
 std::vector<std::int32_t> next_mask(ByteSource& source, std::size_t n) {
@@ -297,6 +316,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto targets = fuzz::cells_of(*to);
   if (!sources || !targets) return 0;
   fuzz::test_grid(*from, *sources);
+  fuzz::test_some(*from, *sources);
   if (source.below(3) == 0) {
     fuzz::test_files(source, *from, second);
   } else {

@@ -188,6 +188,69 @@ TEST(named_grids, pixels_say_what_they_are) {
   EXPECT_EQ(grid_named_by({}), "");
 }
 
+TEST(named_grids, attributes_of_pixels_have_any_case_of_letters) {
+  for (const char* const order : {"NESTED", "Nested", "NEST"}) {
+    EXPECT_EQ(grid_named_by({{{"grid_mapping_name", "HEALPix"}, {"healpix_order", order}},
+                             {{"healpix_nside", 8}}}),
+              "healpix:3:nested");
+  }
+  EXPECT_EQ(grid_named_by({{{"grid_mapping_name", "healpix"}, {"indexing_scheme", "RING"}},
+                           {{"refinement_level", 2}}}),
+            "healpix:2:ring");
+  EXPECT_EQ(
+      grid_named_by({{{"grid_name", "healpix"}, {"indexing_scheme", "nested"}}, {{"level", 2}}}),
+      "healpix:2:nested");
+  const NamedGrid grid("healpix:2:RING");
+  EXPECT_EQ(grid.mapping().texts[1].second, "ring");
+  EXPECT_EQ(grid.center(0), NamedGrid("healpix:2:ring").center(0));
+}
+
+TEST(named_grids, it_is_told_what_attributes_of_pixels_lack) {
+  EXPECT_EQ(lack_of_mapping({}), "");
+  EXPECT_EQ(lack_of_mapping(NamedGrid("healpix:2").mapping()), "");
+  EXPECT_EQ(lack_of_mapping({{{"grid_mapping_name", "healpix"}}, {{"healpix_nside", 4}}}),
+            "indexing_scheme or healpix_order (nested or ring)");
+  EXPECT_EQ(lack_of_mapping({{{"grid_mapping_name", "healpix"}}, {{"healpix_nside", 7}}}),
+            "refinement_level (0 to 13) or healpix_nside (a power of two up to 8192), and "
+            "indexing_scheme or healpix_order (nested or ring)");
+}
+
+TEST(named_grids, numbers_of_pixels_are_known_by_their_variable) {
+  EXPECT_TRUE(may_number_pixels("anything", "healpix_index"));
+  EXPECT_TRUE(may_number_pixels("cell", ""));
+  EXPECT_FALSE(may_number_pixels("cell", "latitude"));
+  EXPECT_FALSE(may_number_pixels("time", ""));
+}
+
+TEST(named_grids, some_cells_are_those_of_the_whole) {
+  for (const char* const name : {"healpix:2:ring", "healpix:1", "O4", "C3", "tripolar:10"}) {
+    const NamedGrid grid(name);
+    const CellSet all = grid.cells();
+    const std::vector<Index> numbers = {7, 0, 30, 5};
+    const CellSet some = grid.cells(numbers);
+    ASSERT_EQ(some.num_cells(), 4U) << name;
+    std::vector<LonLat> places;
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      EXPECT_NEAR(some.areas()[k], all.areas()[numbers[k]], 1e-14) << name;
+      places.push_back(grid.center(numbers[k]));
+    }
+    EXPECT_EQ(some.facts().centers, places) << name;
+    EXPECT_EQ(grid.numbers_at(places, 1e-4), numbers) << name;
+    places[2].lat_deg += 1e-3;
+    EXPECT_TRUE(grid.numbers_at(places, 1e-4).empty()) << name;
+    places[2] = places[1];
+    EXPECT_TRUE(grid.numbers_at(places, 1e-4).empty()) << name;
+  }
+  const NamedGrid grid("healpix:1");
+  EXPECT_TRUE(NamedGrid("F4").numbers_at(grid.centers(), 1e-4).empty());
+  const auto why = [](const char* name, std::vector<Index> numbers) {
+    return thrown_message<InvalidInput>([&] { return NamedGrid(name).cells(numbers); });
+  };
+  EXPECT_EQ(why("healpix:1", {3, 48}), "'healpix:1' has no cell 48");
+  EXPECT_EQ(why("healpix:1", {3, 4, 3}), "the cell 3 is there twice");
+  EXPECT_EQ(why("F4", {3}), "the cells of 'F4' are between lines");
+}
+
 TEST(named_grids, refuse_what_is_none) {
   const auto why = [](const char* name) {
     return thrown_message<InvalidInput>([&] { return NamedGrid(name); });
