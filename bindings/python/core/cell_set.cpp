@@ -184,6 +184,13 @@ void add_makers(nb::class_<CellSet>& cells) {
           },
           nb::arg("name"), nb::arg("sides").none(), nb::arg("threads"))
       .def_static(
+          "some_of_named",
+          [](const std::string& name, const IndicesIn& numbers, unsigned threads) {
+            const auto some = vector_of<Index>(numbers);
+            return unlocked([&] { return NamedGrid(name).cells(some, {.threads = threads}); });
+          },
+          nb::arg("name"), nb::arg("numbers").noconvert(), nb::arg("threads"))
+      .def_static(
           "polygons",
           [](const CellRings& rings, unsigned threads) {
             return unlocked([&] { return CellSet::polygons(rings, {.threads = threads}); });
@@ -217,6 +224,25 @@ void add_grid_mappings(nb::module_& module) {
         return std::pair(name, shape);
       },
       nb::arg("texts"), nb::arg("numbers"));
+  module.def(
+      "lack_of_mapping",
+      [](const Texts& texts, const Numbers& numbers) {
+        return lack_of_mapping({texts, numbers});
+      },
+      nb::arg("texts"), nb::arg("numbers"));
+  module.def(
+      "may_number_pixels",
+      [](const std::string& name, const std::string& standard_name) {
+        return may_number_pixels(name, standard_name);
+      },
+      nb::arg("name"), nb::arg("standard_name"));
+  module.def(
+      "numbers_at",
+      [](const std::string& name, const PairsIn& places, double max_apart_deg) {
+        return indices_out(unlocked(
+            [&] { return NamedGrid(name).numbers_at(rows_of<LonLat>(places), max_apart_deg); }));
+      },
+      nb::arg("name"), nb::arg("places").noconvert(), nb::arg("max_apart_deg"));
   module.def(
       "grid_mapping",
       [](const std::string& name) {

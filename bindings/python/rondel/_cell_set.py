@@ -255,6 +255,11 @@ class CellSet(Described):
         return cls._of(_core.CellSet.named(name, sides, as_threads(threads)))
 
     @classmethod
+    def _some(cls, name: str, numbers: IntArray) -> CellSet:
+        """Some cells of a named grid, by their numbers."""
+        return cls._of(_core.CellSet.some_of_named(name, numbers, 0))._with(shape=())
+
+    @classmethod
     def lonlat_centers(
         cls,
         lon: ArrayLike,

@@ -12,7 +12,7 @@ import xarray
 
 from . import _core
 from ._arrays import half_turn
-from ._types import FloatArray
+from ._types import FloatArray, IntArray
 
 # What to do with dimensions along which places do not change: drop all, those called time, or none.
 Repeats: TypeAlias = Literal["drop", "drop_times", "keep"]
@@ -199,23 +199,88 @@ class Coordinates:
         return made
 
 
-def grid_of(data: Any) -> str | None:
+def grid_of(data: Any) -> tuple[str, tuple[str, IntArray] | None] | None:
     """The name of the grid whose points a Dataset or DataArray says it has, as files that Rondel
-    or tools for HEALPix wrote do (`CellSet.named`).
+    or tools for HEALPix wrote do (`CellSet.named`), and, of pixels whose numbers it has, unless
+    they are all pixels in order, the dimension along which they are, and these numbers.
     """
     lengths = [*data.sizes.values()]
+    for attributes in _mappings_in(data).values():
+        name, shape = _core.grid_named_by(*attributes)
+        if not name:
+            continue
+        pixels = _pixels_of(data, str(name), int(np.prod(shape)))
+        if pixels is not None:
+            is_whole = np.array_equal(pixels[1], np.arange(np.prod(shape)))
+            return str(name), None if is_whole else pixels
+        if np.prod(shape) in lengths or all(length in lengths for length in shape):
+            return str(name), None
+    return None
+
+
+def grid_in_words(data: Any) -> str:
+    """The name of the grid that data say they are on, which they may have in part, or an empty
+    text.
+    """
+    names = (_core.grid_named_by(*each)[0] for each in _mappings_in(data).values())
+    return str(next(filter(None, names), ""))
+
+
+def lack_of_pixels(data: Any) -> str:
+    """Why data without longitudes and latitudes that say they are on pixels of HEALPix have none,
+    or an empty text for other data.
+    """
+    for owner, attributes in _mappings_in(data).items():
+        if lack := _core.lack_of_mapping(*attributes):
+            return f"{owner!r} is the grid mapping of HEALPix, but has no {lack}"
+    grid = grid_in_words(data)
+    if not grid.startswith("healpix:"):
+        return ""
+    _, shape = _core.grid_named_by(*_core.grid_mapping(grid))
+    return (
+        f"the data are on {grid!r} with {shape[0]} pixels, but no dimension is as long, and no "
+        "coordinate has the numbers of some of them, as one with the standard_name 'healpix_index'"
+    )
+
+
+def _mappings_in(data: Any) -> dict[str, tuple[list[tuple[str, str]], list[tuple[str, float]]]]:
+    """The attributes of the data and of their variables, texts and numbers, by their names."""
     known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
-    for attrs in (data.attrs, *({**item.encoding, **item.attrs} for item in known.values())):
+    owners = {"": data.attrs}
+    owners |= {str(name): {**item.encoding, **item.attrs} for name, item in known.items()}
+    found = {}
+    for owner, attrs in owners.items():
         texts = [(str(key), text) for key, text in attrs.items() if isinstance(text, str)]
         numbers = [
             (str(key), float(number))
             for key, number in attrs.items()
             if isinstance(number, (int, float, np.number)) and not isinstance(number, bool)
         ]
-        name, shape = _core.grid_named_by(texts, numbers)
-        is_whole = np.prod(shape) in lengths or all(length in lengths for length in shape)
-        if name and is_whole:
-            return str(name)
+        found[owner] = texts, numbers
+    return found
+
+
+def _pixels_of(data: Any, grid: str, num_pixels: int) -> tuple[str, IntArray] | None:
+    """The dimension and the numbers of the pixels that the data have, if they have numbers."""
+    if not grid.startswith("healpix:"):
+        return None
+    known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
+    for name, item in known.items():
+        standard_name = str(item.attrs.get("standard_name", ""))
+        if item.ndim != 1 or item.size == 0 or item.dtype.kind not in "iuf":
+            continue
+        if not _core.may_number_pixels(str(name), standard_name):
+            continue
+        values = np.asarray(item.values)
+        is_number = (values >= 0) & (values < num_pixels) & (values == np.floor(values))
+        if is_number.all() and len(np.unique(values)) == len(values):
+            return str(item.dims[0]), values.astype(np.int32)
+        if standard_name:
+            why = "has a number twice"
+            if not is_number.all():
+                bad = values[~is_number][0]
+                why = f"has the number {bad}, which is not one of the {num_pixels} of {grid!r}"
+            raise ValueError(f"{name!r} has the numbers of pixels, but {why}")
     return None
 
 

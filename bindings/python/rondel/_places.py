@@ -18,8 +18,10 @@ from ._coordinates import (
     MARKS,
     Coordinates,
     Repeats,
+    grid_in_words,
     grid_of,
     is_away,
+    lack_of_pixels,
     pairs_of_values,
     with_dimensions,
 )
@@ -39,6 +41,13 @@ def _spread(found: Coordinates) -> tuple[xarray.DataArray, xarray.DataArray]:
     """The latitudes and longitudes of all places, as arrays of one shape."""
     south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
     return south, west
+
+
+def _pairs_of(found: Coordinates) -> FloatArray:
+    """Longitudes and latitudes of all places, shape (n, 2)."""
+    south, west = _spread(found)
+    pairs = np.stack([west.values, south.values], axis=-1).reshape(-1, 2)
+    return np.ascontiguousarray(pairs, np.float64)
 
 
 class Places:
@@ -130,22 +139,41 @@ class Places:
             self._used = mask if self._located is None else mask & self._located
 
     def _with_grid(self, data: Any) -> Any:
-        """The data, or the centers of a named grid that they have without coordinates."""
-        name = grid_of(data)
-        if name is None:
-            return data
-        cells = CellSet.named(name)
+        """The data, or the centers of a named grid, or of some of its cells, that they have without
+        coordinates.
+        """
+        found = grid_of(data)
+        if found is None:
+            return self._with_some_cells(data)
+        name, pixels = found
+        cells = CellSet.named(name) if pixels is None else CellSet._some(name, pixels[1])
         try:
-            found = Coordinates(data, None, None)
+            own = Coordinates(data, None, None)
         except ValueError:
-            self._cells, self._grid = cells, name
-            return _centers(cells)
-        south, west = _spread(found)
-        pairs = np.stack([west.values, south.values], axis=-1).reshape(-1, 2)
+            self._cells, self._grid = cells, name if pixels is None else ""
+            placed = _centers(cells)
+            return placed if pixels is None else placed.rename({"cell": pixels[0]})
+        pairs = _pairs_of(own)
         # Points that were put into another order are no longer those of the grid.
         centers = cells._degrees()
-        if len(pairs) == len(centers) and are_near(pairs.astype(np.float64), centers).all():
-            self._grid, self._named_cells = name, cells
+        if len(pairs) == len(centers) and are_near(pairs, centers).all():
+            self._grid, self._named_cells = name if pixels is None else "", cells
+            return data
+        return self._with_some_cells(data)
+
+    def _with_some_cells(self, data: Any) -> Any:
+        """The data, whose places may be centers of some cells of the grid that they name."""
+        try:
+            own = Coordinates(data, None, None)
+        except ValueError:
+            if lack := lack_of_pixels(data):
+                raise ValueError(lack) from None
+            return data  # of which the error will tell
+        if own.are_axes or own.have_bounds or not (grid := grid_in_words(data)):
+            return data
+        numbers = _core.numbers_at(grid, _pairs_of(own), MAX_APART)
+        if len(numbers):
+            self._named_cells = CellSet._some(grid, numbers)
         return data
 
     @property
