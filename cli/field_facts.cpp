@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "rondel/error.h"
+
 namespace rondel::cli {
 namespace {
 
@@ -104,6 +106,18 @@ std::string first_field_of(const FieldSet& fields) {
   if (array.num_fields() == 1) return name;
   for (std::size_t d = 0; d < array.shape.size(); ++d) name += d == 0 ? "[0" : ",0";
   return name + ']';
+}
+
+std::optional<FieldSet> fields_elsewhere(const FileName& file, const SiteTable& table) {
+  const auto fields_at = [&](std::size_t num_points, const WantedPlaces& places) {
+    try {
+      return std::optional(FieldFile(file, {}, num_points, {}, {}, places).fields());
+    } catch (const FileError&) {
+      return std::optional<FieldSet>();  // it has none
+    }
+  };
+  if (table.sites.empty() || fields_at(table.sites.size(), {table.positions})) return std::nullopt;
+  return fields_at(0, {});
 }
 
 }  // namespace rondel::cli

@@ -151,7 +151,8 @@ Json json_of_coordinates(const SiteTable& table) {
 // Returns the object of --json. Names of columns that are not UTF-8 are mended by the replacement
 // character.
 std::string json_of(const SiteTable& table, const Facts& facts,
-                    const std::optional<FieldSet>& fields, const Seconds& seconds) {
+                    const std::optional<FieldSet>& fields, const std::optional<FieldSet>& elsewhere,
+                    const Seconds& seconds) {
   Json bounds = Json::object();
   for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
   const Triangulation& triangulation = facts.triangulation;
@@ -170,6 +171,10 @@ std::string json_of(const SiteTable& table, const Facts& facts,
                {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
                {"peak_memory_bytes", peak_memory_bytes()}};
   if (fields) add_facts_of(*fields, json);
+  if (elsewhere) {
+    json["elsewhere"] = {{"places", elsewhere->num_points}};
+    add_facts_of(*elsewhere, json["elsewhere"]);
+  }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -240,11 +245,12 @@ std::string as_word(const std::string& name) {
 
 // Returns the lines that say what to do with the sites; none if there are no sites.
 std::string commands_for(const SiteTable& table, const std::optional<FieldSet>& fields,
-                         const CommonOptions& common) {
+                         const std::optional<FieldSet>& elsewhere, const CommonOptions& common) {
   if (table.sites.empty()) return {};
   std::string text = "commands that take it: delaunay, voronoi, regions, nearest, graph, plot\n";
   std::string values = name_of_values(table, common);
   if (values.empty() && fields) values = first_field_of(*fields);
+  if (values.empty() && elsewhere) values = first_field_of(*elsewhere);
   if (!values.empty()) text += "and with --value " + as_word(values) + ": interpolate, contours\n";
   if (is_netcdf_file(common.source())) {
     text += "and if its values are on cells: regrid, remap, mesh quality\n";
@@ -254,7 +260,8 @@ std::string commands_for(const SiteTable& table, const std::optional<FieldSet>& 
 
 // Returns the report for people.
 std::string text_of(const SiteTable& table, const Facts& facts,
-                    const std::optional<FieldSet>& fields, const CommonOptions& common) {
+                    const std::optional<FieldSet>& fields, const std::optional<FieldSet>& elsewhere,
+                    const CommonOptions& common) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text =
       table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
@@ -267,7 +274,11 @@ std::string text_of(const SiteTable& table, const Facts& facts,
   }
   // The fields of netCDF are variables, those with one value at each site among them.
   text += fields ? lines_of_fields(*fields) : line_of_columns(table.columns);
-  return text + commands_for(table, fields, common);
+  if (elsewhere) {
+    text += "at " + count(elsewhere->num_points, "other place", "other places") +
+            ", such as nodes:\n" + lines_of_fields(*elsewhere);
+  }
+  return text + commands_for(table, fields, elsewhere, common);
 }
 
 // Returns the nodes in degrees.
@@ -374,7 +385,12 @@ ExitStatus run_info(const CommonOptions& options) {
   }
   const Facts facts = find_facts(table, job, common.build.sphere);
   const std::optional<FieldSet> fields = fields_of(table, common);
-  job.report(json_of(table, facts, fields, job.seconds()), text_of(table, facts, fields, common));
+  std::optional<FieldSet> elsewhere;
+  if (!fields && is_netcdf_file(common.source())) {
+    elsewhere = fields_elsewhere(common.source(), table);
+  }
+  job.report(json_of(table, facts, fields, elsewhere, job.seconds()),
+             text_of(table, facts, fields, elsewhere, common));
   return done;
 }
 

@@ -27,6 +27,7 @@
 #include "edge_table.h"
 #include "extrapolate_options.h"
 #include "field_carrier.h"
+#include "field_facts.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
@@ -52,6 +53,7 @@ struct InterpolateOptions {
   std::optional<RegridMethod> regrid;  // --method bilinear, nearest_d2s or native
   ExtrapolateOptions extrapolate;      // --extrapolate and its limits
   NetcdfOptions netcdf;                // --kind --deflate
+  std::string field;                   // whose places are the sites, if none is at the cells
 
   [[nodiscard]] FileName source_file() const { return common.source_beside(target); }
   [[nodiscard]] FileName target_file() const { return common.other_source(target); }
@@ -61,7 +63,9 @@ struct InterpolateOptions {
   [[nodiscard]] FileName mesh_file() const {
     if (!mesh.empty()) return mesh;
     FileName file = source_file();
-    if (file_and_variable(file).second.empty() && !columns.empty()) file.path += ":" + columns[0];
+    if (!file_and_variable(file).second.empty()) return file;
+    const std::string& name = columns.empty() ? field : columns[0];
+    if (!name.empty()) file.path += ":" + name;
     return file;
   }
 };
@@ -298,10 +302,30 @@ void require_values_on_mesh(const InterpolateOptions& options, bool is_netcdf) {
   }
 }
 
+// Reads the sites. Where all fields of netCDF are to be carried and none is at the cells, they are the
+// places of the first field and those with it, such as the nodes of a mesh.
+NetcdfSites read_sources(Job& job, const ReadOptions& read, bool has_values,
+                         InterpolateOptions& options) {
+  const FileName file = options.source_file();
+  NetcdfSites cells = job.read_on_mesh(file, options.mesh, read, options.columns);
+  const bool is_all = has_values && options.columns.empty() && options.mesh.empty() &&
+                      file_and_variable(file).second.empty();
+  if (!is_all) return cells;
+  const std::optional<FieldSet> fields = fields_elsewhere(file, cells.table);
+  if (!fields) return cells;
+  options.field = fields->arrays.front().name;
+  NetcdfSites sites = job.read_grid(file, read, {&options.field, 1});
+  job.remark(file.path,
+             "no field is at the " + count(cells.table.sites.size(), "center", "centers") +
+                 " of cells; sites are the " + count(sites.table.sites.size(), "place", "places") +
+                 " of " + options.field);
+  return sites;
+}
+
 // Checks the options, reads both files, then interpolates values, makes weights, or does both.
 // netCDF needs no --value: all variables at the places of the sites are carried. Throws UsageError
 // for options that contradict each other, FileError for files that cannot be read.
-ExitStatus run_interpolate(const InterpolateOptions& options) {
+ExitStatus run_interpolate(InterpolateOptions options) {
   const CommonOptions& common = options.common;
   const bool is_netcdf = is_netcdf_file(file_and_variable(options.source_file()).first);
   const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
@@ -310,8 +334,7 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
   require_values_on_mesh(options, is_netcdf);
-  const NetcdfSites grid =
-      job.read_on_mesh(options.source_file(), options.mesh, read, options.columns);
+  const NetcdfSites grid = read_sources(job, read, has_values, options);
   const SiteTable& table = grid.table;
   const std::optional<EdgeTable> edges = edges_of(options, table);
   const InterpolateMethod method = {options.interpolation, edges ? &*edges : nullptr};

@@ -8,6 +8,7 @@ Without netCDF4-python ctest says "Skipped".
 
 import importlib.util
 import itertools
+import json
 import pathlib
 import subprocess
 import sys
@@ -252,6 +253,35 @@ class Fields(unittest.TestCase):
             self.run_tool("mesh", "convert", "s.xyz", "-o", "plain.nc", "--format", form)
             said = self.run_tool("mesh", "convert", "plain.nc", "-o", "again.nc")
             self.assertNotIn("left out", said)
+
+    def test_fields_at_nodes_alone_are_carried_and_told(self):
+        np.savetxt(self.folder / "s.xyz", np.random.default_rng(3).normal(size=(60, 3)))
+        (self.folder / "to.csv").write_text("lon,lat\n10,20\n-70,5\n")
+        for form in ("ugrid", "scrip"):
+            self.run_tool("mesh", "convert", "s.xyz", "-o", form + ".nc", "--format", form)
+        with netCDF4.Dataset(self.folder / "ugrid.nc", "a") as data:
+            count = len(data.dimensions["n_node"])
+            for name in ("a", "b"):
+                values = np.arange(count) * 1.0
+                add(data, name, ("n_node",), values, location="node", mesh="mesh")
+        for method in ("sibson", "native"):
+            to = ("--to", "to.csv", "--method", method, "-o")
+            said = self.run_tool("interpolate", "ugrid.nc", *to, "all.csv")
+            self.assertIn("no field is at the 60 centers of cells; sites are the "
+                          f"{count} places of a", said)
+            self.run_tool(
+                "interpolate", "ugrid.nc", "--value", "a", "--value", "b", *to, "named.csv"
+            )
+            for name in ("a", "b"):
+                found = self.table("all.csv")[name]
+                np.testing.assert_array_equal(found, self.table("named.csv")[name])
+        said = self.run_tool("info", "ugrid.nc")
+        self.assertIn(f"at {count} other places, such as nodes:\nfields: a, b\n", said)
+        self.assertIn("and with --value a: interpolate, contours", said)
+        facts = json.loads(self.run_tool("info", "ugrid.nc", "--json"))
+        self.assertEqual(facts["elsewhere"]["places"], count)
+        self.assertEqual([each["name"] for each in facts["elsewhere"]["fields"]], ["a", "b"])
+        self.assertNotIn("other places", self.run_tool("info", "scrip.nc"))
 
     def test_two_places_of_one_cell_are_refused(self):
         np.savetxt(self.folder / "s.xyz", np.random.default_rng(4).normal(size=(40, 3)))
