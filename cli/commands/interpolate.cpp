@@ -122,6 +122,9 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
   fields.num_points = targets.table.sites.size();
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (const std::string& name : options.columns) {
+    if (std::ranges::count(options.columns, name) > 1) {
+      throw UsageError("--value: '" + name + "' is named twice");
+    }
     FieldArray array;
     array.name = name;
     array.values = carrier.carry(column_values(table, name, "--value"));

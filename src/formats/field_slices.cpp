@@ -191,6 +191,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     throw io::BadValue("no longitudes and latitudes of variable " + io::in_quotes(named.name) +
                        remark_on_units(headers_of(file)));
   }
+  require_distinct(wanted.names);
   wanted.names.empty() ? add_all() : keep_named();
   name_bounds();
   name_coordinates();
@@ -205,6 +206,21 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   }
   const bool are_chosen = !wanted.names.empty() || !wanted.places.positions.empty();
   if (!are_chosen) fields_.remark_on_grids = layouts_.remark_on_grids();
+}
+
+// Two names may mean one field, such as "tas[0]" and "tas_2001-07-15".
+void FieldSlices::require_distinct(std::span<const std::string> names) const {
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    for (std::size_t j = 0; j < k; ++j) {
+      if (sources_[j].variable != sources_[k].variable) continue;
+      const std::size_t end_j = sources_[j].first + fields_.arrays[j].num_fields();
+      const std::size_t end_k = sources_[k].first + fields_.arrays[k].num_fields();
+      if (sources_[j].first >= end_k || sources_[k].first >= end_j) continue;
+      const bool is_same = sources_[j].first == sources_[k].first && end_j == end_k;
+      throw io::BadValue(io::in_quotes(names[j]) + " and " + io::in_quotes(names[k]) +
+                         (is_same ? " are the same field" : " have a field in common"));
+    }
+  }
 }
 
 bool FieldSlices::add(const io::VariableInFile& variable) {

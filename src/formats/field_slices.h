@@ -81,6 +81,8 @@ class FieldSlices {
   [[nodiscard]] bool is_label(const io::VariableInFile& variable) const;
   // Adds to `others` the bounds of axes, and what the fields name as coordinates without places.
   void keep_named();
+  // Throws BadValue if two of the names, by which the fields were read, mean the same field.
+  void require_distinct(std::span<const std::string> names) const;
   // Names the bounds of axes that are among `others`.
   void name_bounds();
   // Names the coordinates of fields that are among `others`, such as a height.

@@ -227,6 +227,30 @@ class Values(Files):
             ("interpolate", "grid.nc", "--value", "v", "--value", "v", "--to", "to.csv", "-o", "o.csv"),
         ):
             self.assertIn('"v" is named twice', self.run_tool(*command, status=1))
+        (self.folder / "s.csv").write_text("lon,lat,v\n1,2,3\n40,5,6\n7,90,9\n")
+        twice = ("--value", "v", "--value", "v", "--to", "to.csv", "-o", "o.csv")
+        self.assertIn("--value: 'v' is named twice", self.run_tool("interpolate", "s.csv", *twice, status=2))
+
+    def test_two_names_of_one_field_are_refused(self):
+        data = self.new("times.nc")
+        add_axes(data)
+        data.createDimension("time", 2)
+        add(data, "time", ("time",), np.array([10.0, 20.0]))
+        add(data, "v", ("time", "lat", "lon"), np.zeros((2, len(LAT), len(LON))))
+        data.close()
+        for names, what in (
+            (("v[0]", "v[-2]"), "are the same field"),
+            (("v_20", "v[1]"), "are the same field"),
+            (("v[1]", "v"), "have a field in common"),
+        ):
+            values = ("--value", names[0], "--value", names[1])
+            for command in (
+                ("regrid", "times.nc", "grid:30", *values, "-o", "o.nc"),
+                ("interpolate", "times.nc", *values, "--to", "to.csv", "-o", "o.csv"),
+            ):
+                said = self.run_tool(*command, status=1)
+                self.assertIn(f'"{names[0]}" and "{names[1]}" {what}', said)
+        self.run_tool("regrid", "times.nc", "grid:30", "--value", "v[0]", "--value", "v[1]", "-o", "o.nc")
 
 
 class MeshesOfOceans(Files):
