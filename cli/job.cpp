@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -25,6 +26,43 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// True if sites that were read as x, y, z look like longitudes, latitudes and heights: x and y are in
+// the ranges of degrees, and the sites are neither near a sphere nor all around the center.
+bool are_degrees_and_heights(const SiteTable& table) {
+  if (table.is_lonlat() || table.sites.empty()) return false;
+  constexpr double small = 10;  // clouds of points are often smaller than a map in degrees
+  double largest = 0;
+  double lowest = table.sites.front().z;
+  double highest = lowest;
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (const Point& p : table.sites) {
+    if (p.x < -180 || p.x > 360 || std::abs(p.y) > 90) return false;
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    lowest = std::min(lowest, p.z);
+    highest = std::max(highest, p.z);
+    shortest = std::min(shortest, std::hypot(p.x, p.y, p.z));
+    longest = std::max(longest, std::hypot(p.x, p.y, p.z));
+  }
+  const bool is_near_sphere = longest <= 1.1 * shortest;
+  const bool is_around_center = lowest < 0 && highest > 0 && std::max(-lowest, highest) <= 180;
+  return largest > small && !is_near_sphere && !is_around_center;
+}
+
+// Tells that columns x, y and z look like longitude, latitude and height, and how to say so, unless
+// options name them or the center of the sphere.
+void tell_of_heights(const SiteTable& table, const FileName& file, const ReadOptions& read,
+                     const Sphere& sphere) {
+  if (!read.x.empty() || sphere.center != Point{} || !are_degrees_and_heights(table)) return;
+  const std::string format = format_of(file);
+  const bool has_names = format == "csv" || format == "tsv" || (format.empty() && file.path == "-");
+  const std::string way_out =
+      has_names ? "--lon x --lat y takes degrees" : ".csv with the columns lon and lat has degrees";
+  tell(table.name, {"x, y and z look like longitude, latitude and height, but are taken as places "
+                    "in space; " +
+                    way_out});
 }
 
 }  // namespace
@@ -123,6 +161,7 @@ NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
     tell_of_columns(part.first.path, read);
   } else {
     sites.table = read_sites(file, read, execution());
+    tell_of_heights(sites.table, file, read, sphere());
   }
   const SiteTable& table = sites.table;
   state_->seconds.read += seconds_since(start);

@@ -121,15 +121,23 @@ std::optional<std::size_t> find(const Header& header, const Coordinate& coordina
 }
 
 // Returns the column of a coordinate. Throws BadValue with the columns that there are if it is
-// missing.
-std::size_t require(const Header& header, const Coordinate& coordinate) {
+// missing, and the hint.
+std::size_t require(const Header& header, const Coordinate& coordinate, const std::string& hint) {
   if (const auto column = find(header, coordinate)) return *column;
   std::string names;
   for (const std::string_view name : coordinate.usual) {
     names += (names.empty() ? "" : ", ") + std::string(name);
   }
   throw BadValue("no column for the " + std::string(coordinate.word) + " (" + names + ")" +
-                 found(header));
+                 found(header) + hint);
+}
+
+// Returns what to do about columns x and y without z, which are often degrees.
+std::string hint_of_degrees(const Header& header, std::span<const Coordinate> xyz) {
+  const auto x = find(header, xyz[0]);
+  const auto y = find(header, xyz[1]);
+  if (!x || !y || find(header, xyz[2])) return {};
+  return "; if they are longitude and latitude: --lon " + header[*x] + " --lat " + header[*y];
 }
 
 // True if the options name a column of one of these coordinates.
@@ -212,9 +220,10 @@ CoordinateColumns find_columns(const Header& header, const ReadOptions& options)
   const auto [lonlat, xyz] = usual_coordinates(options);
   CoordinateColumns result;
   result.is_lonlat = !is_xyz(header, lonlat, xyz);
+  const std::string hint = result.is_lonlat ? std::string() : hint_of_degrees(header, xyz);
   std::ranges::transform(result.is_lonlat ? std::span<const Coordinate>(lonlat) : std::span(xyz),
                          result.columns.begin(),
-                         [&](const Coordinate& c) { return require(header, c); });
+                         [&](const Coordinate& c) { return require(header, c, hint); });
   if (!options.radius.empty()) result.radius = find(header, {"radius", options.radius, {}});
   return result;
 }

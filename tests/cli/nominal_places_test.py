@@ -133,6 +133,26 @@ class OtherOrders(Files):
         said = self.run_tool("mesh", "scvt", "-n", "20", "--fixed", "s.csv", "-o", "o.nc", status=1)
         self.assertIn("s.csv: 1 row has no place", said)
 
+    def test_degrees_and_heights_are_no_places_in_space(self):
+        rows = "-74.0,40.7,10\n2.35,48.85,35\n139.7,35.7,40\n-43,-23,0\n"
+        (self.folder / "h.csv").write_text("X,Y,Z\n" + rows)
+        (self.folder / "h.xyz").write_text(rows.replace(",", " "))
+        unit = np.random.default_rng(3).normal(size=(20, 3))
+        np.savetxt(self.folder / "cloud.xyz", 60 * unit / np.abs(unit).max())
+        np.savetxt(self.folder / "near.xyz", 90 * unit / np.linalg.norm(unit, axis=1)[:, None])
+        look = "x, y and z look like longitude, latitude and height, but are taken as places in space; "
+        said = self.run_tool("delaunay", "h.csv", "-o", "o.npy")
+        self.assertIn("h.csv: " + look + "--lon x --lat y takes degrees", said)
+        said = self.run_tool("delaunay", "h.xyz", "-o", "o.npy")
+        self.assertIn("h.xyz: " + look + ".csv with the columns lon and lat has degrees", said)
+        for told in (
+            ("h.csv", "--lon", "X", "--lat", "Y"),
+            ("h.csv", "--x", "X", "--y", "Y", "--z", "Z"),
+            ("cloud.xyz",),
+            ("near.xyz",),
+        ):
+            self.assertNotIn("look like", self.run_tool("delaunay", *told, "-o", "o.npy"))
+
     def test_endings_in_capitals_are_endings(self):
         (self.folder / "S.CSV").write_text("lon,lat,t\n1,1,5\n10,10,6\n-30,3,7\n0,60,8\n")
         (self.folder / "t.csv").write_text("lon,lat\n2,2\n")

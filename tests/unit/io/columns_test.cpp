@@ -72,6 +72,9 @@ TEST(csv_columns, are_found_by_usual_names) {
             "no column for the longitude (lon, lng, long, longitude); found: column_1, lat; "
             "a column without a name is called by its position");
   EXPECT_EQ(columns_of({"x", "z"}), "no column for the y coordinate (y); found: x, z");
+  EXPECT_EQ(columns_of({"X", "b", "y"}),
+            "no column for the z coordinate (z); found: X, b, y; if they are longitude and "
+            "latitude: --lon X --lat y");
   EXPECT_EQ(columns_of({"x", "lon"}), "no column for the latitude (lat, latitude); found: x, lon");
 }
 
