@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "targets.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "report.h"
@@ -61,6 +64,44 @@ Weights in_native_cells(const Job& job, const FileName& file, const NetcdfSites&
   });
 }
 
+// True if two names are the same but for the case of letters.
+bool is_same_name(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+// Removes the column of a coordinate: that of the name that was chosen, or that of a usual one.
+void drop_column(const std::string& chosen, std::initializer_list<std::string_view> usual,
+                 std::vector<Column>& columns) {
+  auto found = std::ranges::find(columns, chosen, &Column::name);
+  if (found == columns.end()) {
+    found = std::ranges::find_if(columns, [&](const Column& column) {
+      if (!chosen.empty()) return is_same_name(column.name, chosen);
+      return std::ranges::any_of(
+          usual, [&](std::string_view name) { return is_same_name(column.name, name); });
+    });
+  }
+  if (found != columns.end()) columns.erase(found);
+}
+
+// Returns the columns of a table that are no coordinates, such as names, and the properties of
+// features: they stand beside the values.
+std::vector<Column> columns_beside(const FileName& target, const ReadOptions& read,
+                                   SiteTable& table) {
+  std::vector<Column> columns = std::move(table.columns);
+  table.columns.clear();
+  if (is_geojson(target)) return columns;
+  if (table.is_lonlat() || table.sites.empty()) {
+    drop_column(read.lon, {"lon", "lng", "long", "longitude"}, columns);
+    drop_column(read.lat, {"lat", "latitude"}, columns);
+  } else {
+    drop_column(read.x, {"x"}, columns);
+    drop_column(read.y, {"y"}, columns);
+    drop_column(read.z, {"z"}, columns);
+  }
+  return columns;
+}
+
 // Reads targets whose longitudes and latitudes are seen from the origin.
 Targets read_given_targets(const FileName& target, const ReadOptions& read, const Point& center) {
   Targets targets;
@@ -90,8 +131,9 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
   }
   ReadOptions options = read;
   options.radius.clear();
-  options.keep_columns = false;
+  options.keep_columns = true;
   targets.table = read_sites(target, options);
+  targets.side.columns = columns_beside(target, options, targets.table);
   const SiteTable& table = targets.table;
   if (table.num_unlocated > 0) {
     tell(table.name,

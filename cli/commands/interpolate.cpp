@@ -111,13 +111,23 @@ std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteT
   return read_edge_table(options.constraints, table);
 }
 
+// Leaves out columns of the targets that have the name of a field: the field stands in their place.
+void drop_columns_of(const FieldSet& fields, Targets& targets) {
+  for (const FieldArray& array : fields.arrays) {
+    std::vector<std::string> names = names_of_fields(array, fields.axes);
+    names.push_back(array.name);
+    std::erase_if(targets.side.columns,
+                  [&](const Column& column) { return std::ranges::count(names, column.name) > 0; });
+  }
+}
+
 // Interpolates the columns that --value names, and writes them as fields of those names. The index
 // of `table` counts sites; `weights` are those of bilinear or nearest_d2s. All columns are in
 // memory at once, as a table was.
 void interpolate_columns(Job& job, const InterpolateOptions& options,
-                         const InterpolateMethod& method, const SiteTable& table,
-                         const Targets& targets, const std::optional<Weights>& weights,
-                         Extrapolator* extrapolator, InterpolateCounts& counts) {
+                         const InterpolateMethod& method, const SiteTable& table, Targets& targets,
+                         const std::optional<Weights>& weights, Extrapolator* extrapolator,
+                         InterpolateCounts& counts) {
   FieldSet fields;
   fields.num_points = targets.table.sites.size();
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
@@ -130,6 +140,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
     array.values = carrier.carry(column_values(table, name, "--value"));
     fields.arrays.push_back(std::move(array));
   }
+  drop_columns_of(fields, targets);
   job.time(Stage::write,
            [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
 }
@@ -137,9 +148,9 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
 // Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
 // a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options,
-                        const InterpolateMethod& method, const NetcdfSites& grid,
-                        const Targets& targets, const std::optional<Weights>& weights,
-                        Extrapolator* extrapolator, InterpolateCounts& counts) {
+                        const InterpolateMethod& method, const NetcdfSites& grid, Targets& targets,
+                        const std::optional<Weights>& weights, Extrapolator* extrapolator,
+                        InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
   const auto [file, variable] = file_and_variable(options.source_file());
   std::vector<std::string> names = options.columns;
@@ -156,6 +167,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
+  drop_columns_of(out, targets);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf, job.execution());
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
@@ -492,7 +504,8 @@ Command add_interpolate_command(CLI::App& tool) {
       *parser, "--to", options->target,
       "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
       "or values at places, or the centers of the cells of a grid: grid:1, healpix:7,\n"
-      "F320, O320 ... (see rondel regrid)")
+      "F320, O320 ... (see rondel regrid). Other columns of a table, such as names, and\n"
+      "properties stand beside the values in .csv .tsv .nc .nc4 and beside the weights in .nc")
       ->type_name("TARGET");
   parser
       ->add_option(

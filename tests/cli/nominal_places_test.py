@@ -133,6 +133,29 @@ class OtherOrders(Files):
         said = self.run_tool("mesh", "scvt", "-n", "20", "--fixed", "s.csv", "-o", "o.nc", status=1)
         self.assertIn("s.csv: 1 row has no place", said)
 
+    def test_columns_of_targets_stand_beside_the_values(self):
+        (self.folder / "s.csv").write_text("lon,lat,v\n1,2,3\n40,5,6\n7,50,9\n-20,-30,4\n")
+        (self.folder / "to.csv").write_text('ID,Lon,lat,name,z\n7,1,2,a b,5\n9,7,50,"x,y",\n')
+        point = {"type": "Point", "coordinates": [1, 2]}
+        named = {"type": "Feature", "properties": {"name": "p", "lat": 1}, "geometry": point}
+        (self.folder / "to.geojson").write_text(json.dumps(named))
+        (self.folder / "space.csv").write_text("v,x,y,z,w\nold,0,0,5,own\n")
+        wanted = 'lon,lat,ID,name,z,v\n1,2,7,a b,5,3\n7,50,9,"x,y",,9\n'
+        nearest = ("interpolate", "s.csv", "--value", "v", "--method", "nearest", "--to")
+        for file in ("o.csv", "o.nc"):
+            self.run_tool(*nearest, "to.csv", "-o", file, "--weights", "w.nc")
+        self.assertEqual((self.folder / "o.csv").read_text(), wanted)
+        with netCDF4.Dataset(self.folder / "o.nc") as out:
+            self.assertEqual(out["name"][:].tolist(), ["a b", "x,y"])
+            np.testing.assert_array_equal(out["ID"][:], [7, 9])
+        self.run_tool("apply", "w.nc", "s.csv", "--value", "v", "-o", "a.csv")
+        self.assertEqual((self.folder / "a.csv").read_text(), wanted)
+        self.run_tool(*nearest, "to.geojson", "-o", "o.csv")
+        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,lat_,name,v\n1,2,1,p,3\n")
+        self.run_tool(*nearest, "space.csv", "-o", "o.csv")
+        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,w,v\n0,90,own,9\n")
+        self.run_tool(*nearest, "to.csv", "--lon", "z", "--lat", "lat", "-o", "o.csv", status=1)
+
     def test_degrees_and_heights_are_no_places_in_space(self):
         rows = "-74.0,40.7,10\n2.35,48.85,35\n139.7,35.7,40\n-43,-23,0\n"
         (self.folder / "h.csv").write_text("X,Y,Z\n" + rows)
