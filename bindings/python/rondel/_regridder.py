@@ -126,7 +126,7 @@ class Regridder(Described):
         Those without extrapolation get the one that is wanted.
     overlap : {'error', 'first', 'share', 'each'}, optional
         What conservative methods do if cells of one grid overlap; as in `remap`, by default
-        'error'.
+        'error'. Like `invalid` it is refused beside weights that are given.
     invalid : {'error', 'repair'}, optional
         What conservative methods do if a cell crosses or overlaps itself: 'error' (default) raises
         `InvalidInput`, 'repair' replaces it as `CellSet.repaired` does.
@@ -253,6 +253,9 @@ class Regridder(Described):
         for name, rule in of_cells.items():
             if method not in _CONSERVATIVE and rule != "error":
                 raise ValueError(f"{name} has no effect with the method {method!r}")
+            # Corners are compared with those of the weights.
+            if weights is not None and name != "corners" and rule != "error":
+                raise ValueError(f"{name} has no effect on given weights")
         for name in needless:
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")

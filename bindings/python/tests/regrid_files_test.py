@@ -336,6 +336,11 @@ def test_options_of_regridders_without_effect_are_refused(made):
     with pytest.raises(ValueError, match="max_uncovered has no effect with the method 'linear'"):
         rondel.Regridder(data, "grid:30", "linear", max_uncovered=0.5)
     regridder = rondel.Regridder(data, "grid:30", "conservative")
+    for option, word in (("overlap", "first"), ("invalid", "repair")):
+        with pytest.raises(ValueError, match=f"{option} has no effect on given weights"):
+            rondel.Regridder(
+                data, "grid:30", "conservative", weights=regridder.weights, **{option: word}
+            )
     with pytest.raises(ValueError, match="how must be 'sum', 'largest_share' or 'by_kind', not 'f"):
         regridder(data.warm, how="foo")
 
