@@ -13,7 +13,6 @@
 
 #include "command.h"
 #include "double_text.h"
-#include "field_facts.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/read_cells.h"
@@ -67,7 +66,7 @@ std::vector<double> netcdf_values(const SiteTable& table, const std::string& nam
   const FieldArray& array = fields.arrays.front();
   if (array.num_fields() != 1) {
     std::string text = option + ": '" + name + "' of " + table.name + " has several fields (" +
-                       lengths_in_words(array) + ")";
+                       array.lengths_in_words() + ")";
     if (array.num_fields() > 1) {
       std::string first = name + "[0";
       for (std::size_t d = 1; d < array.shape.size(); ++d) first += ",0";

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "validate.h"
+
 namespace rondel::cli {
 namespace {
 
@@ -65,14 +67,12 @@ EdgeTable read_edge_table(const std::string& path, const SiteTable& sites) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     const std::string place = path + ":" + std::to_string(number);
-    const auto comma = line.find(',');
-    if (comma == std::string_view::npos || line.find(',', comma + 1) != std::string_view::npos) {
-      throw FileError(place + ": '" + std::string(line) + "' is not two columns");
-    }
+    const auto columns = parts_at_comma(line);
+    if (!columns) throw FileError(place + ": '" + std::string(line) + "' is not two columns");
     const bool has_digits = line.find_first_of("0123456789") != std::string_view::npos;
     if (number == 1 && !has_digits) continue;
-    table.constraints.push_back({site_in(line.substr(0, comma), num_sites, place),
-                                 site_in(line.substr(comma + 1), num_sites, place)});
+    table.constraints.push_back(
+        {site_in(columns->first, num_sites, place), site_in(columns->second, num_sites, place)});
     table.places.push_back(place);
   }
   return table;

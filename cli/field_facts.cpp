@@ -30,7 +30,7 @@ std::string text_of(const FieldArray& array) {
   if (const std::string_view units = attribute_of(array, "units"); !units.empty()) {
     text.append(" [").append(units).append("]");
   }
-  return array.dimensions.empty() ? text : text + " (" + lengths_in_words(array) + ')';
+  return array.dimensions.empty() ? text : text + " (" + array.lengths_in_words() + ')';
 }
 
 // Returns "time: 0 to 330, 12 of them [days since 2000-01-01]"; an empty text for an axis of texts.
@@ -55,15 +55,6 @@ FieldJson json_of(const FieldArray& array) {
 }
 
 }  // namespace
-
-std::string lengths_in_words(const FieldArray& array) {
-  std::string text;
-  for (std::size_t d = 0; d < array.dimensions.size(); ++d) {
-    text.append(d == 0 ? "" : ", ").append(array.dimensions[d]);
-    text.append(" ").append(std::to_string(array.shape[d]));
-  }
-  return text;
-}
 
 std::string lines_of_fields(const FieldSet& fields) {
   std::string text;

@@ -18,9 +18,6 @@
 
 namespace rondel::cli {
 
-/// Returns the lengths of the dimensions before that of the points, "time 12, level 3".
-std::string lengths_in_words(const FieldArray& array);
-
 /// Returns lines that say which grid the places are on, which fields there are, with units and the
 /// lengths of further dimensions, from where to where axes such as times go, and what was left out.
 std::string lines_of_fields(const FieldSet& fields);

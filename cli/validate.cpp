@@ -38,6 +38,14 @@ std::string finite_error(const std::string& text) {
   return std::isfinite(value) ? std::string() : "'" + text + "' is not finite";
 }
 
+std::optional<std::pair<std::string, std::string>> parts_at_comma(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos) {
+    return std::nullopt;
+  }
+  return std::pair(std::string(text.substr(0, comma)), std::string(text.substr(comma + 1)));
+}
+
 std::string positive_error(const std::string& text) {
   std::string error = finite_error(text);
   if (!error.empty()) return error;

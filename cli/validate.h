@@ -9,9 +9,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace rondel::cli {
+
+/// Returns the two parts of a text with one comma, such as "u,v"; nothing for another text.
+std::optional<std::pair<std::string, std::string>> parts_at_comma(std::string_view text);
 
 /// Checks a number that is neither infinite nor NaN.
 std::string finite_error(const std::string& text);

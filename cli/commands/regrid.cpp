@@ -140,28 +140,21 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
 
 // Adds --vector, pairs of variables: "u10,v10".
 void add_vectors(CLI::App& parser, RegridCommandOptions& options) {
-  const auto parts_of = [](const std::string& text) {
-    const std::size_t comma = text.find(',');
-    const bool is_pair =
-        comma != std::string::npos && text.find(',', comma + 1) == std::string::npos;
-    return is_pair ? std::pair(text.substr(0, comma), text.substr(comma + 1))
-                   : std::pair<std::string, std::string>();
-  };
   const CLI::Option* const vector =
       parser
           .add_option_function<std::vector<std::string>>(
               "--vector",
-              [&options, parts_of](const std::vector<std::string>& texts) {
+              [&options](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts) {
-                  options.regrid.vectors.push_back(parts_of(text));
+                  options.regrid.vectors.push_back(*parts_at_comma(text));
                 }
               },
               "Two variables that are eastward and northward components, as in u10,v10: they are\n"
               "carried as vectors in space, also near poles; may be repeated")
-          ->check([parts_of](const std::string& text) {
-            const auto [east, north] = parts_of(text);
-            return east.empty() || north.empty() ? "'" + text + "' is not EAST,NORTH"
-                                                 : std::string();
+          ->check([](const std::string& text) {
+            const auto parts = parts_at_comma(text);
+            const bool is_pair = parts && !parts->first.empty() && !parts->second.empty();
+            return is_pair ? std::string() : "'" + text + "' is not EAST,NORTH";
           })
           ->allow_extra_args(false)
           ->type_name("EAST,NORTH");

@@ -49,6 +49,8 @@ struct FieldArray {
 
   /// Returns the number of fields at the points: the product of `shape`.
   [[nodiscard]] RONDEL_API std::size_t num_fields() const;
+  /// Returns the lengths of the dimensions before that of the points, "time 12, level 3".
+  [[nodiscard]] RONDEL_API std::string lengths_in_words() const;
 };
 
 /// Returns a name for each field of an array, for use as a column: the name of the array if it has

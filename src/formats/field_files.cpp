@@ -62,6 +62,14 @@ std::size_t FieldArray::num_fields() const {
   return product;
 }
 
+std::string FieldArray::lengths_in_words() const {
+  std::string text;
+  for (std::size_t d = 0; d < dimensions.size(); ++d) {
+    text += (d == 0 ? "" : ", ") + dimensions[d] + " " + std::to_string(shape[d]);
+  }
+  return text;
+}
+
 // A file that is open, with its fields.
 struct FieldFile::OpenFields {
   explicit OpenFields(const FileName& file) : bytes(file) {}

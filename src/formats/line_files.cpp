@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/unplaced_rows.h"
 #include "io/ending.h"
 #include "meshing/feature_outlines.h"
 #include "rondel/error.h"
@@ -33,10 +34,7 @@ std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonO
   } else {
     const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table
                                                  : read_sites(file, {}, execution);
-    if (table.num_unlocated > 0) {
-      throw FileError(file.path + ": " + std::to_string(table.num_unlocated) +
-                      (table.num_unlocated > 1 ? " rows have" : " row has") + " no place");
-    }
+    formats::require_places_of_rows(table);
     for (const Point& site : table.sites) lines.push_back({site});
   }
   if (lines.empty()) throw FileError(file.path + ": it has no points and no lines");

@@ -167,12 +167,8 @@ Column column_of(const FieldArray& array) {
 
 // Returns a message that an array has several fields and is no column.
 std::string text_of_several(const FieldArray& array, const FieldSet& fields) {
-  std::string lengths;
-  for (std::size_t d = 0; d < array.shape.size(); ++d) {
-    lengths += (d == 0 ? "" : ", ") + array.dimensions[d] + " " + std::to_string(array.shape[d]);
-  }
-  std::string text =
-      io::in_quotes(array.name) + " has several fields (" + lengths + ") and is no column";
+  std::string text = io::in_quotes(array.name) + " has several fields (" +
+                     array.lengths_in_words() + ") and is no column";
   const std::vector<std::string> names = names_of_fields(array, fields.axes);
   return names.empty() ? text : text + "; one of them is " + io::in_quotes(names.front());
 }

@@ -15,6 +15,7 @@
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/netcdf_cells.h"
+#include "formats/unplaced_rows.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
@@ -173,10 +174,7 @@ Spacings spacings_of(const FileName& file, const std::string& name, const Execut
   }
   SiteTable table = read_sites(file, {}, execution);
   if (name.empty()) throw FileError(table.name + ": which column is meant is not said");
-  if (table.num_unlocated > 0) {
-    throw FileError(table.name + ": " + std::to_string(table.num_unlocated) +
-                    (table.num_unlocated > 1 ? " rows have" : " row has") + " no place");
-  }
+  formats::require_places_of_rows(table);
   FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
   Spacings result;
   result.places = std::move(table.sites);

@@ -264,6 +264,7 @@ void test_weights(std::string_view bytes) {
     for (const FieldArray& array : fields.arrays) {
       require(array.values.size() == 4 * array.num_fields(), "a field has a value a point");
       require(names_of_fields(array, fields.axes).size() == array.num_fields(), "and a name");
+      require(array.lengths_in_words().empty() == array.dimensions.empty(), "and lengths");
     }
     if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});
     if (!fields.arrays.empty()) test_slices(folder, path, fields);
