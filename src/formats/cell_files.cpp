@@ -282,7 +282,11 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
   if (const formats::GridOfFile grid = formats::grid_of_file(file, true); !grid.name.empty()) {
     try {
       const NamedGrid named(grid.name, options.sides);
-      return grid.numbers.empty() ? named.cells(execution) : named.cells(grid.numbers, execution);
+      if (grid.numbers.empty()) return named.cells(execution);
+      const CellSet some = named.cells(grid.numbers, execution);
+      CellFacts facts = some.facts();
+      if (!grid.shape.empty()) facts.shape = grid.shape;
+      return some.with_facts(std::move(facts));
     } catch (const InvalidInput& error) {
       throw FileError(file.path + ": " + error.what());
     }

@@ -32,6 +32,11 @@ using io::NetcdfReader;
 
 constexpr std::size_t no_variable = CoordinatePair::none;
 
+// True for two rows and two columns or more, between whose centers corners can be made.
+bool is_grid_of_rows(std::span<const std::uint64_t> shape) {
+  return shape.size() == 2 && shape[0] > 1 && shape[1] > 1;
+}
+
 // Finds the coordinates of the grid that is to be read. `remarks` gets what is noteworthy.
 class CfGrids {
  public:
@@ -65,9 +70,8 @@ class CfGrids {
       return has_cells(pair) && (pair.is_used || !has_used);
     });
     if (found == pairs_.end()) {
-      const bool may_be_made = std::ranges::any_of(pairs_, [&](const CoordinatePair& pair) {
-        return headers_[pair.lon].dimensions.size() > 1;
-      });
+      const bool may_be_made = std::ranges::any_of(
+          pairs_, [&](const CoordinatePair& pair) { return may_have_made_corners(pair); });
       throw BadValue(
           std::string("its longitudes and latitudes have no bounds, so no cells") +
           (may_be_made ? "; --corners made (corners='made' in Python) makes them from the centers"
@@ -91,6 +95,14 @@ class CfGrids {
   }
 
  private:
+  // True if cells_around_centers() takes the places of the pair.
+  [[nodiscard]] bool may_have_made_corners(const CoordinatePair& pair) const {
+    try {
+      return is_grid_of_rows(places_of(file_, variable(pair.lon), variable(pair.lat)).shape);
+    } catch (const BadValue&) {
+      return false;  // coordinates that are no places
+    }
+  }
   // True if cells can be made: the coordinates are axes, or both have bounds, or these are made.
   [[nodiscard]] bool has_cells(const CoordinatePair& pair) const {
     return pair.are_axes || has_bounds(pair) ||
@@ -366,8 +378,7 @@ MeshContent cells_around_centers(const NetcdfReader& file, const CfGrids& grids,
   const io::VariableInFile& lat = grids.variable(pair.lat);
   const PlaceArrays places = places_of(file, lon, lat);
   const std::string names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
-  const bool is_grid = places.shape.size() == 2 && places.shape[0] > 1 && places.shape[1] > 1;
-  if (!is_grid || 4 * places.lon.size() >= no_index) {
+  if (!is_grid_of_rows(places.shape) || 4 * places.lon.size() >= no_index) {
     throw BadValue(
         "corners of cells are made of grids with two rows and two columns or more, not of " +
         names);

@@ -185,8 +185,8 @@ std::optional<std::vector<Index>> pixels_of(const io::NetcdfReader& reader, cons
   return std::nullopt;
 }
 
-// Returns the numbers of the cells whose centers are the places of a file without bounds, or nothing.
-std::vector<Index> numbers_of_places(const io::NetcdfReader& reader, const NamedGrid& grid) {
+// Returns the cells whose centers are the places of a file without bounds, or no name.
+GridOfFile cells_at_places(const io::NetcdfReader& reader, const NamedGrid& grid) {
   const std::vector<VariableHeader> headers = headers_of(reader);
   const std::vector<CoordinatePair> pairs = find_coordinates(headers);
   if (pairs.empty()) return {};
@@ -194,10 +194,12 @@ std::vector<Index> numbers_of_places(const io::NetcdfReader& reader, const Named
   if (pair.are_axes || pair.lon_bounds != CoordinatePair::none) return {};
   const PlaceArrays found =
       places_of(reader, reader.variables()[pair.lon], reader.variables()[pair.lat]);
-  if (found.shape.size() != 1) return {};
   std::vector<LonLat> places;
   for (std::size_t i = 0; i < found.lon.size(); ++i) places.push_back({found.lon[i], found.lat[i]});
-  return grid.numbers_at(places, max_apart_deg);
+  std::vector<Index> numbers = grid.numbers_at(places, max_apart_deg);
+  if (numbers.empty()) return {};
+  return {grid.name(), std::move(numbers),
+          found.shape.size() > 1 ? found.shape : std::vector<std::uint64_t>()};
 }
 
 // Returns the grid that attributes name, if the file has cells of it, or else one without a name.
@@ -216,18 +218,16 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
         const auto center = [&](std::size_t i) { return grid.center(are_all ? i : (*numbers)[i]); };
         const std::uint64_t count = are_all ? grid.num_cells() : numbers->size();
         if (!may_be_at(reader, {count, nullptr, center})) return {};
-        return {name, std::move(*numbers)};
+        return {name, std::move(*numbers), {}};
       }
     }
     const auto center = [&](std::size_t i) { return grid.center(i); };
     // A file may also have some of the grid's points, with their longitudes and latitudes.
     if ((has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has)) &&
         may_be_at(reader, {grid.num_cells(), grid.axes(), center})) {
-      return {name, {}};
+      return {name, {}, {}};
     }
-    if (!needs_cells) return {};
-    std::vector<Index> numbers = numbers_of_places(reader, grid);
-    return numbers.empty() ? GridOfFile() : GridOfFile{name, std::move(numbers)};
+    return needs_cells ? cells_at_places(reader, grid) : GridOfFile();
   } catch (const InvalidInput& error) {
     throw io::BadValue(error.what());
   }

@@ -33,8 +33,11 @@ bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid);
 
 // The grid on which a file says that its points are.
 struct GridOfFile {
-  std::string name;            // empty if it says nothing of a grid
-  std::vector<Index> numbers;  // those of its cells that are in the file; empty for all in order
+  std::string name;  // empty if it says nothing of a grid
+  std::vector<Index> numbers =
+      {};  // those of its cells that are in the file; empty for all in order
+  // The lengths of the dimensions of these cells, empty for one.
+  std::vector<std::uint64_t> shape = {};
 };
 
 // Returns the grid that netCDF says its points are on: if it has the numbers of pixels, or else the

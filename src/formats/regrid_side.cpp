@@ -80,7 +80,7 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
     : name_(file.path), options_(options) {
   require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
-  const GridOfFile grid = is_name ? GridOfFile{file.path, {}} : grid_of_file(file, has_cells);
+  const GridOfFile grid = is_name ? GridOfFile{file.path, {}, {}} : grid_of_file(file, has_cells);
   if (grid.name.empty()) {
     read_file(file, has_cells, execution, names);
     return;
@@ -88,7 +88,7 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
   try {
     NamedGrid named(grid.name, options.sides);
     if (!grid.numbers.empty()) {
-      take_some(named, grid.numbers, has_cells, execution);
+      take_some(named, grid, has_cells, execution);
       return;
     }
     named_ = std::move(named);
@@ -147,11 +147,11 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
   if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
 }
 
-void RegridSide::take_some(const NamedGrid& grid, std::span<const Index> numbers, bool has_cells,
+void RegridSide::take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                            const Execution& execution) {
-  for (const Index number : numbers) places_.push_back(grid.center(number));
-  shape_ = {numbers.size()};
-  if (has_cells) cells_ = grid.cells(numbers, execution);
+  for (const Index number : some.numbers) places_.push_back(grid.center(number));
+  shape_ = some.shape.empty() ? std::vector<std::uint64_t>{some.numbers.size()} : some.shape;
+  if (has_cells) cells_ = grid.cells(some.numbers, execution);
 }
 
 std::size_t RegridSide::num_places() const {

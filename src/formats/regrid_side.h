@@ -11,10 +11,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "formats/grid_of_file.h"
 #include "rondel/cell_set.h"
 #include "rondel/extrapolate.h"
 #include "rondel/fields.h"
@@ -68,7 +68,7 @@ class RegridSide {
   void read_file(const FileName& file, bool has_cells, const Execution& execution,
                  std::vector<std::string> names);
   // Takes some cells of a grid with a name, which are no grid of their own.
-  void take_some(const NamedGrid& grid, std::span<const Index> numbers, bool has_cells,
+  void take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                  const Execution& execution);
   void make_cells(const Execution& execution);
 

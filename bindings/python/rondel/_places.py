@@ -445,9 +445,10 @@ class Places:
         if (lon is None or lat is None) and self._corners == "made":
             lon, lat = self._made_nodes()
         if lon is None or lat is None:
+            way_out = "; corners='made' makes them from the centers"
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
-                "bounds of the coordinates; corners='made' makes them from the centers"
+                f"bounds of the coordinates{way_out if self._is_grid_of_rows else ''}"
             )
         if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, lat, self.shape, self._pairs_with_gaps(None))
@@ -456,9 +457,14 @@ class Places:
         self._require_inside(*outside)
         return self._described(made, mask)
 
+    @property
+    def _is_grid_of_rows(self) -> bool:
+        """Whether there are two rows and two columns or more, between which corners can be made."""
+        return len(self.shape) == 2 and min(self.shape) > 1
+
     def _made_nodes(self) -> tuple[FloatArray, FloatArray]:
         """The nodes between the centers of a grid of two dimensions, one row and column more."""
-        if len(self.shape) != 2 or min(self.shape) < 2:
+        if not self._is_grid_of_rows:
             raise ValueError(
                 "corners of cells are made of grids with two rows and two columns or more, not of "
                 f"shape {self.shape}"

@@ -153,3 +153,39 @@ def test_what_is_missing_is_named(tmp_path, data, message):
     data.to_netcdf(tmp_path / "in.nc")
     with pytest.raises(OSError, match=r"grid mapping of|has the number"):
         rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc")
+
+
+@pytest.mark.parametrize(
+    ("shape", "is_way_out"), [((6, 4, 4), False), ((1, 96), False), ((8, 12), True)]
+)
+def test_corners_are_not_made_of_what_is_no_grid_of_rows(shape, is_way_out):
+    lon, lat = rondel.CellSet.named("C4")._degrees().T
+    dims = ("f", "j", "i")[-len(shape) :]
+    data = xarray.Dataset(
+        {"t": (dims, lat.reshape(shape))},
+        {
+            "lon": (dims, lon.reshape(shape), {"units": "degrees_east"}),
+            "lat": (dims, lat.reshape(shape), {"units": "degrees_north"}),
+        },
+    )
+    with pytest.raises(ValueError, match="there are no corners of cells") as told:
+        rondel.regrid(data, "grid:30")
+    assert ("corners='made'" in str(told.value)) == is_way_out
+
+
+def test_a_cubed_sphere_with_its_faces_upside_down_has_its_cells(tmp_path):
+    lon, lat = rondel.CellSet.named("C4")._degrees().reshape(6, 4, 4, 2).transpose(3, 0, 1, 2)
+    dims = ("tile", "y", "x")
+    data = xarray.Dataset(
+        {"t": (dims, np.sin(np.radians(lon)) + lat / 90, {"coordinates": "lon lat"})},
+        {
+            "lon": (dims, lon, {"units": "degrees_east"}),
+            "lat": (dims, lat, {"units": "degrees_north"}),
+        },
+        {"rondel_grid": "C4"},
+    )
+    wanted = rondel.regrid(data, "grid:30").t
+    turned = data.isel(y=slice(None, None, -1))
+    turned.t.attrs.clear()
+    found = regridded(turned, tmp_path, "grid:30", "conservative")
+    np.testing.assert_allclose(found, wanted, rtol=1e-9)
