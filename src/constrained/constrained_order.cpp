@@ -8,10 +8,11 @@
 #include "constrained/constrained_order.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "system/large_arrays.h"
 #include "system/parallel.h"
+#include "system/row_assembly.h"
 #include "topology/mesh.h"
 
 namespace rondel::constrained {
@@ -26,12 +27,11 @@ class FaceOrder {
       : all_(all), order_(all.faces.size()), place_(all.faces.size()) {}
 
   void run() {
-    const std::vector<Index> ends = deal();
-    Index begin = 0;
-    for (Index v = 0; v < ends.size(); ++v) {
-      const std::span<Index> own = std::span(order_).subspan(begin, ends[v] - begin);
-      if (all_.is_touched[v] != 0 && own.size() > 1) sort_around(own);
-      begin = ends[v];
+    const std::vector<Index> offsets = deal();
+    for (Index v = 0; v < all_.names.size(); ++v) {
+      if (all_.is_touched[v] == 0) continue;
+      const std::size_t size = offsets[v + 1] - offsets[v];
+      if (size > 1) sort_around(std::span(order_).subspan(offsets[v], size));
     }
     for (Index i = 0; i < order_.size(); ++i) place_[order_[i]] = i;
   }
@@ -41,14 +41,13 @@ class FaceOrder {
   [[nodiscard]] const LargeVector<Index>& place() const { return place_; }
 
  private:
-  // Puts the faces of each owner next to each other, and returns for each owner where they end.
+  // Puts the faces of each owner next to each other, and returns where they begin.
   std::vector<Index> deal() {
-    std::vector<Index> next(all_.names.size() + 1);
-    for (const Triple& face : all_.faces) ++next[face[0] + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    for (Index f = 0; f < all_.faces.size(); ++f) order_[next[all_.faces[f][0]]++] = f;
-    next.pop_back();
-    return next;
+    system::RowPlaces<Index> places(all_.names.size());
+    for (const Triple& face : all_.faces) places.count(face[0]);
+    places.sum();
+    for (Index f = 0; f < all_.faces.size(); ++f) order_[places.place(all_.faces[f][0])] = f;
+    return std::move(places).offsets();
   }
 
   // The face with the earlier second corner comes first, or the solid one if they have the same.
