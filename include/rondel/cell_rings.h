@@ -30,7 +30,9 @@ namespace rondel {
 ///    clockwise. A cell may have several outer rings, and rings may touch in corners.
 /// 3. Two cells that share an edge must have the same two indices for its ends; otherwise they are
 ///    no neighbors.
-/// 4. A cell without a ring is the whole sphere if it is in `whole`, and empty otherwise.
+/// 4. A cell without a ring is the whole sphere if it is in `whole`, and empty otherwise. A ring
+///    without corners adds nothing to its cell; what needs cells as CellSet::polygons() does refuses
+///    it.
 struct CellRings {
   std::vector<std::uint64_t> cells = {0};  ///< one offset more than cells; counts rings
   std::vector<std::uint64_t> rings = {0};  ///< one offset more than rings; counts corners

@@ -64,7 +64,7 @@ PreparedPolygon::PreparedPolygon(const CellRings& cells, std::size_t cell,
                                  std::span<const Point> points, std::span<const Index> numbers)
     : PreparedSides(points), is_whole_(cells.is_whole(cell)) {
   if (is_whole_) extent_ = whole_box;
-  if (cells.cells[cell] == cells.cells[cell + 1]) return;
+  if (cells.rings[cells.cells[cell]] == cells.rings[cells.cells[cell + 1]]) return;
   append_sides(cells, cell, numbers);
   make_boxes();
   if (divide_sides(true)) fault_ = PolygonFault::crossing_sides;

@@ -163,7 +163,7 @@ class PreparedGeometries {
         }
       }
       const CellRings& cells = operand.polygons;
-      has[2] = cells.cells[i] < cells.cells[i + 1] || cells.is_whole(i);
+      has[2] = cells.rings[cells.cells[i]] < cells.rings[cells.cells[i + 1]] || cells.is_whole(i);
       if (has[0] + has[1] + has[2] > 1) {
         throw InvalidInput("geometry " + std::to_string(i) + " of the " + name +
                                " operand has parts of several dimensions, each of which has "

@@ -121,6 +121,7 @@ bool is_surely_larger_than(std::span<const Point> ring, double area) {
 }  // namespace
 
 double area_on_left(std::span<const Point> ring) {
+  if (ring.empty()) return 0;
   if (!is_large(ring)) return area_around(ring.front(), ring);
   constexpr double least = 1e-12;
   const Point moment = moment_of(ring);

@@ -17,7 +17,7 @@ namespace rondel::map {
 // Returns the area to the left of a ring, from -2 pi to 2 pi, as the sum of triangles (van
 // Oosterom, Strackee 1983). For a small ring the triangles are at its first point, and the sign is
 // right however thin the ring is. For a large ring they are at its center of mass, or at another
-// point whose antipode is no corner.
+// point whose antipode is no corner. A ring without corners has no area.
 double area_on_left(std::span<const Point> ring);
 
 // Returns the sum of area_on_left() of all rings of a region, which is its area but for a multiple of 4 pi. It is taken in

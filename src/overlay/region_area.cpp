@@ -71,6 +71,7 @@ double unsure_area(std::size_t num_corners) {
 }  // namespace
 
 RingArea area_of_ring(std::span<const Point> ring) {
+  if (ring.empty()) return {};
   const double area = map::area_on_left(ring);
   const double unsure = unsure_area(ring.size());
   if (std::abs(area) > unsure) return {area, unsure};
@@ -78,6 +79,7 @@ RingArea area_of_ring(std::span<const Point> ring) {
 }
 
 void RegionArea::add(std::span<const Point> ring) {
+  if (ring.empty()) return;
   add_term(map::area_on_left(ring), sum_);
   points_.insert(points_.end(), ring.begin(), ring.end());
   ends_.push_back(points_.size());

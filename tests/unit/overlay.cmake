@@ -3,6 +3,7 @@
 rondel_add_test(overlay_test
   overlay/arcs_test.cpp
   overlay/cell_set_test.cpp
+  overlay/empty_rings_test.cpp
   overlay/filling_test.cpp
   overlay/flips_test.cpp
   overlay/graticule_test.cpp

@@ -408,7 +408,7 @@ RONDEL_C_API rondel_status rondel_polygons_of_features(const rondel_features* fe
                                                        rondel_polygons** made);
 /** Makes n polygons of unit vectors. Polygon i has the rings polygons[i] ... polygons[i + 1] - 1, and ring r the corners
  *  rings[r] ... rings[r + 1] - 1, of which the first one is not repeated. Both arrays begin with 0. Rings may cross and
- *  repeat each other; rondel_repair() makes such polygons valid.
+ *  repeat each other; rondel_repair() makes such polygons valid. A ring without corners adds nothing to its polygon.
  *  `corners` are unit vectors, shape (number of corners, 3). `whole` has the polygons that are the whole sphere,
  *  increasing, shape (num_whole,); they have no rings.
  *  RONDEL_INVALID_INPUT: an array does not fit, or the index of a corner that is no unit vector. */
