@@ -90,8 +90,9 @@ struct ConstrainedTriangulation {
 ///    first.
 /// 6. Below dimension 2 there are no faces, and `edges` are pairs of neighbors in the ring.
 ///
-/// A Locator, an Interpolator and a DynamicTriangulation, which rely on Delaunay faces, refuse the
-/// triangulation unless all its faces are those of delaunay(); and its dual is no Voronoi diagram.
+/// A Locator, an Interpolator, a DynamicTriangulation, cells() and areas(), graphs, alpha shapes,
+/// empty circles and meshes, which rely on Delaunay faces, refuse the triangulation unless all its
+/// faces are those of delaunay(): its dual is no Voronoi diagram.
 /// A ConstrainedLocator locates points in it, a ConstrainedInterpolator interpolates values, and a
 /// DynamicConstrainedTriangulation changes it.
 ///

@@ -4,6 +4,10 @@
 /// \file
 /// Duals of a triangulation: Voronoi diagrams and, in the weighted model,
 /// power (Laguerre) diagrams.
+///
+/// cells(), areas(), diagram() and centroids() throw InvalidInput if the faces are not Delaunay, as
+/// they may be where arrays were given (Triangulation::from_arrays()) or constraints
+/// (rondel/constrained.h). The other functions take each face or edge by itself.
 #pragma once
 
 #include <array>

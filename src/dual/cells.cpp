@@ -12,7 +12,6 @@
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
-#include "system/job.h"
 #include "system/large_arrays.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -161,27 +160,6 @@ std::vector<double> dual::areas_within(const Triangulation& surface, std::size_t
   surface_cells(surface, SplitSites(surface, 1), &areas, num_whole);
   areas.resize(num_whole);
   return areas;
-}
-
-}  // namespace rondel
-
-namespace rondel {
-
-Cells cells(const Triangulation& triangulation, const Execution& execution) {
-  const system::Call call(execution);
-  return dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), nullptr);
-}
-
-Diagram diagram(const Triangulation& triangulation, const Execution& execution) {
-  const system::Call call(execution);
-  Diagram result;
-  result.cells =
-      dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), &result.areas);
-  return result;
-}
-
-std::vector<double> areas(const Triangulation& triangulation, const Execution& execution) {
-  return diagram(triangulation, execution).areas;
 }
 
 }  // namespace rondel

@@ -14,7 +14,6 @@
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "rondel/diagram.h"
-#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -57,13 +56,10 @@ Point centroid_of(const LocalRing& ring) {
 
 }  // namespace
 
-std::vector<Point> centroids(const Triangulation& triangulation, const Execution& execution) {
-  const system::Call call(execution);
-  const dual::SplitSites sites(triangulation, execution.threads);
-  if (triangulation.dimension() < 2) return dual::great_circle_centroids(triangulation, sites);
+std::vector<Point> dual::centroids(const Triangulation& triangulation, const SplitSites& sites) {
+  if (triangulation.dimension() < 2) return great_circle_centroids(triangulation, sites);
   std::vector<Point> result(triangulation.num_sites());
-  dual::measure_cells(triangulation, sites, dual::cells(triangulation, sites, nullptr), centroid_of,
-                      result);
+  measure_cells(triangulation, sites, cells(triangulation, sites, nullptr), centroid_of, result);
   return result;
 }
 

@@ -56,6 +56,9 @@ RONDEL_API std::vector<Point> circumcenters_within(const Triangulation& surface)
 Cells cells(const Triangulation& triangulation, const SplitSites& sites,
             std::vector<double>* areas);
 
+// The directions of the cells' centers of mass.
+std::vector<Point> centroids(const Triangulation& triangulation, const SplitSites& sites);
+
 // The area of the cell of a vertex whose ring is complete.
 class RingLocalizer;
 double careful_area(RingLocalizer& localize, Index rank);

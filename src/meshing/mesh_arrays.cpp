@@ -14,6 +14,7 @@
 #include <numeric>
 #include <string>
 
+#include "api/triangulation_impl.h"
 #include "dual/ring_walk.h"
 #include "dual/split_sites.h"
 #include "exact/angles.h"
@@ -298,6 +299,7 @@ VoronoiMesh make_mesh(const Triangulation& triangulation, const MeshOptions& opt
                       const Execution& execution) {
   const system::Call call(execution);
   require_mesh(triangulation, options);
+  api::require_delaunay(triangulation, execution);
   return MeshMaker(triangulation, options, execution).make();
 }
 

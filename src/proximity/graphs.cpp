@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "api/triangulation_impl.h"
 #include "proximity/relative_neighborhood.h"
 #include "proximity/site_distances.h"
 #include "rondel/diagram.h"
@@ -191,6 +192,7 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("weighted sites have no graphs of distances");
   }
+  api::require_delaunay(triangulation, execution);
   const SiteDistances distances(triangulation, execution);
   std::vector<NearPair> candidates = triangulation.dimension() < 2
                                          ? ring_candidates(triangulation, distances)

@@ -172,7 +172,10 @@ RONDEL_C_API rondel_status rondel_check(const double* points, size_t n, const ui
 RONDEL_C_API rondel_status rondel_size_of_hull(const rondel_triangulation* hull, double* volume,
                                                double* area);
 
-/* ---- Duals (rondel/diagram.h) ---- */
+/* ---- Duals (rondel/diagram.h) ----
+ *
+ * Areas, centroids and diagrams are those of Delaunay faces: RONDEL_INVALID_INPUT for a triangulation with constraints
+ * (rondel_constrained_triangulation()) that has others. Circumcenters, edges and facets are those of any faces. */
 
 /** Circumcenters or power centers, unit vectors, shape (num_faces, 3). */
 RONDEL_C_API rondel_status rondel_circumcenters(const rondel_triangulation* triangulation,
@@ -680,8 +683,8 @@ RONDEL_C_API rondel_status rondel_constrained_delaunay(
     rondel_constrained** constrained);
 RONDEL_C_API void rondel_constrained_free(rondel_constrained* constrained);
 
-/** Makes a handle of its points and faces, which shares their arrays. What relies on Delaunay faces refuses it:
- *  rondel_locator_create(). */
+/** Makes a handle of its points and faces, which shares their arrays. What relies on Delaunay faces refuses it,
+ *  unless all its faces are: rondel_locator_create(), rondel_areas(), rondel_centroids() and rondel_diagram_create(). */
 RONDEL_C_API rondel_status rondel_constrained_triangulation(const rondel_constrained* constrained,
                                                             rondel_triangulation** triangulation);
 

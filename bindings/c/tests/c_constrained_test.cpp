@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "rondel.h"
@@ -90,6 +91,30 @@ TEST(c_constrained, crossings_are_errors_or_sites) {
                               points, crossing, {.crossings = rondel::ConstraintCrossings::split}));
   const Faces faces = faces_of(made.get());
   EXPECT_EQ(rondel_num_sites(faces.get()), points.size() + 1);
+}
+
+TEST(c_constrained, cells_are_those_of_delaunay_faces) {
+  Constrained made;
+  ASSERT_EQ(make({{1, 3}}, RONDEL_REFUSE_CROSSINGS, made), RONDEL_OK);
+  const Faces changed = faces_of(made.get());
+  std::vector<double> numbers(3 * rondel_num_faces(changed.get()) + 3 * points.size());
+  rondel_diagram* diagram = nullptr;
+  rondel_locator* locator = nullptr;
+  const bool is_changed = rondel_locator_create(changed.get(), &locator) != RONDEL_OK;
+  rondel_locator_free(locator);
+  ASSERT_EQ(make({{0, 2}}, RONDEL_REFUSE_CROSSINGS, made), RONDEL_OK);
+  const Faces other = faces_of(made.get());
+  // One of the two diagonals of the square around the pole is an edge of delaunay().
+  const auto& [good, bad] = is_changed ? std::tie(other, changed) : std::tie(changed, other);
+  EXPECT_EQ(rondel_areas(bad.get(), nullptr, numbers.data()), RONDEL_INVALID_INPUT);
+  EXPECT_EQ(rondel_centroids(bad.get(), nullptr, numbers.data()), RONDEL_INVALID_INPUT);
+  EXPECT_EQ(rondel_diagram_create(bad.get(), nullptr, &diagram), RONDEL_INVALID_INPUT);
+  EXPECT_EQ(diagram, nullptr);
+  EXPECT_EQ(std::string(rondel_error_message()).substr(0, 29), "the arrays are not those of t");
+  EXPECT_EQ(rondel_circumcenters(bad.get(), nullptr, numbers.data()), RONDEL_OK);
+  EXPECT_EQ(rondel_areas(good.get(), nullptr, numbers.data()), RONDEL_OK);
+  ASSERT_EQ(rondel_diagram_create(good.get(), nullptr, &diagram), RONDEL_OK);
+  rondel_diagram_free(diagram);
 }
 
 TEST(c_constrained, wrong_calls_are_named) {

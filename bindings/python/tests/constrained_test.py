@@ -416,6 +416,31 @@ def test_the_check_refuses_other_faces():
     assert caught.value.index == 1
 
 
+def test_faces_that_are_not_delaunay_have_no_cells():
+    points = rondel.unit_vectors([0, 90, 180, -90, 0], [50, 51, 52, 53, -90])
+    delaunay = rondel.SphericalDelaunay(points)
+    refused = 0
+    for diagonal in ([0, 2], [1, 3]):
+        constrained = rondel.constrained_delaunay(points, [diagonal])
+        # As loaded from a file in which somebody has changed the faces.
+        loaded = rondel.SphericalDelaunay.__new__(rondel.SphericalDelaunay)
+        loaded.__setstate__({**delaunay.__getstate__(), "arrays": constrained.__getstate__()["arrays"]})
+        assert len(loaded.circumcenters) == 6
+        if np.array_equal(constrained.simplices, delaunay.simplices):
+            assert np.array_equal(loaded.voronoi().areas, delaunay.voronoi().areas)
+            continue
+        refused += 1
+        for call in (
+            lambda: loaded.voronoi().areas,
+            lambda: loaded.voronoi().cells,
+            lambda: loaded.voronoi().centroids,
+            lambda: loaded.graph("gabriel"),
+        ):
+            with pytest.raises(rondel.InvalidInput, match="not those of the triangulation"):
+                call()
+    assert refused == 1
+
+
 def test_progress_can_end_the_work():
     def stop(stage, fraction):
         raise ArithmeticError(stage)

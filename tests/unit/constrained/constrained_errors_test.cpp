@@ -7,9 +7,15 @@
 #include <algorithm>
 #include <limits>
 
+#include "rondel/cell_set.h"
 #include "rondel/constrained.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "rondel/dynamic.h"
+#include "rondel/graphs.h"
+#include "rondel/interpolate.h"
+#include "rondel/mesh.h"
+#include "rondel/outlines.h"
 #include "rondel/query.h"
 #include "support/thrown.h"
 
@@ -96,8 +102,20 @@ TEST(constrained_errors, what_relies_on_delaunay_faces_refuses_others) {
   const ConstrainedTriangulation changed = constrained_delaunay(square, other);
   EXPECT_THROW(Locator{changed.triangulation}, InvalidInput);
   EXPECT_THROW(DynamicTriangulation{changed.triangulation}, InvalidInput);
+  EXPECT_THROW(Interpolator{changed.triangulation}, InvalidInput);
+  EXPECT_THROW(cells(changed.triangulation), InvalidInput);
+  EXPECT_THROW(areas(changed.triangulation), InvalidInput);
+  EXPECT_THROW(diagram(changed.triangulation), InvalidInput);
+  EXPECT_THROW(centroids(changed.triangulation), InvalidInput);
+  EXPECT_THROW(CellSet::voronoi(changed.triangulation), InvalidInput);
+  EXPECT_THROW(site_graph(changed.triangulation, GraphKind::gabriel), InvalidInput);
+  EXPECT_THROW(alpha_shape(changed.triangulation, 1), InvalidInput);
+  EXPECT_THROW(largest_empty_circles(changed.triangulation, 1), InvalidInput);
+  EXPECT_THROW(mesh::make_mesh(changed.triangulation), InvalidInput);
+  EXPECT_EQ(circumcenters(changed.triangulation).size(), changed.triangulation.num_faces());
   const ConstrainedTriangulation same = constrained_delaunay(square, std::vector<Ends>{{0, 1}});
   EXPECT_EQ(Locator(same.triangulation).nearest(Point{1, 0.1, 1}), 0U);
+  EXPECT_EQ(areas(same.triangulation), areas(delaunay(square)));
 }
 
 TEST(constrained_errors, the_check_names_what_is_wrong) {
