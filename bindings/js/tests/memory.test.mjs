@@ -9,7 +9,8 @@ import { delaunay, DynamicTriangulation, RondelError, unitVectors, voronoi } fro
 import { engine, separateEngine } from "../node_modules/rondel/src/engine.js";
 import { build } from "../node_modules/rondel/src/build.js";
 import { VoronoiDiagram } from "../node_modules/rondel/src/triangulation.js";
-import { randomSites } from "./support.mjs";
+import { geoContour, geoDelaunay, geoVoronoi } from "rondel/d3";
+import { randomLonLat, randomSites } from "./support.mjs";
 
 const bytes = () => engine().memory.buffer.byteLength;
 const numBuilds = process.env.RONDEL_LONG ? 10_000 : 200;
@@ -103,6 +104,33 @@ test("what is forgotten is freed by the garbage collector", { skip: globalThis.g
     await new Promise((resolve) => setTimeout(resolve, 0));
   }
   assert.ok(bytes() < 200e6, `${bytes()} bytes`); // 60 triangulations that nobody freed take 110 MB more
+});
+
+test("diagrams in place of d3's take no more memory in a loop that never waits", () => {
+  const points = randomLonLat(2000, 10);
+  const first = geoVoronoi(points);
+  const [cells, site] = [JSON.stringify(first.polygons()), first.find(10, 20)];
+  const links = first.links().features.length;
+  const before = bytes();
+  const data = points.map(([lon, lat]) => [lon, lat, lat]);
+  for (let i = 0; i < 300; ++i) {
+    assert.equal(geoVoronoi(points).find(10, 20), site);
+    assert.equal(geoDelaunay(points).polygons.length, 2000);
+    assert.equal(geoContour().contour(data, 0).value, 0);
+  }
+  assert.ok(bytes() - before < 100e6, `${bytes() - before} bytes`); // 900 diagrams take 300 MB
+  // What was freed meanwhile is made again.
+  assert.equal(JSON.stringify(first.polygons()), cells);
+  assert.equal(JSON.stringify(first(points).polygons()), cells);
+  assert.equal(first.find(10, 20), site);
+  assert.equal(first.links().features.length, links);
+});
+
+test("no more bytes are allocated than the module can count", () => {
+  for (const n of [2 ** 32, 2 ** 32 + 8, 2 ** 33, 2 ** 53]) {
+    assert.throws(() => engine().allocate(n), RangeError);
+    assert.throws(() => engine().scoped((scope) => scope.room(n / 8 + 1, 8)), RangeError);
+  }
 });
 
 test("a thing that was freed says so, and its arrays stay", () => {

@@ -33,32 +33,92 @@ import { isPlace, partOf, toLonLat, withinPoles } from "./sphere.js";
 // Arcs that are less than 1.4 mrad short of half a circle keep a point in between, since rounding would decide their way.
 const leastCosine = -1 + 1e-6;
 
-/** The positions of the points that are finite. @param {ArrayLike<number>[]} points */
-function finitePositions(points) {
+/**
+ * Copies points, with latitudes in [-90, 90]; NaN for those that are not finite.
+ * @param {ArrayLike<number>[]} points
+ */
+function copiedPlaces(points) {
   if (!Array.isArray(points)) throw new TypeError(`points: an array of points is wanted, not ${shown(points)}`);
-  const positions = [];
+  const places = new Float64Array(2 * points.length).fill(NaN);
   for (let i = 0; i < points.length; ++i) {
-    if (isPlace(partOf(points[i], 0, "point", i), points[i][1], "point", i)) positions.push(i);
+    let lon = partOf(points[i], 0, "point", i);
+    let lat = points[i][1];
+    if (!isPlace(lon, lat, "point", i)) continue;
+    if (Math.abs(lat) > 90) [lon, lat] = withinPoles(lon, lat);
+    places[2 * i] = lon;
+    places[2 * i + 1] = lat;
   }
-  return positions;
+  return places;
 }
 
+// A program that makes one diagram after the other leaves the garbage collector no time to free their memory in the
+// module. So it is freed here for all but the last ones that were asked; another one that is asked is made again.
+const mostSites = 250_000; // of those that are kept; the last one is kept whatever its size
+const sitesForOne = 250; // as many sites as take the memory that a diagram has beside sites
+/** @typedef {import("../triangulation.js").VoronoiDiagram} VoronoiDiagram */
+
+/** The diagram of some sites, while it is kept. */
+class KeptDiagram {
+  /** The last one that was asked is the last one. @type {Set<KeptDiagram>} */
+  static #all = new Set();
+  static #numSites = 0;
+  /** @type {VoronoiDiagram | undefined} */
+  #diagram;
+  #lonLat;
+  #size;
+
+  /** @param {Float64Array} lonLat */
+  constructor(lonLat) {
+    this.#lonLat = lonLat;
+    this.#size = lonLat.length / 2 + sitesForOne;
+  }
+
+  get() {
+    const all = KeptDiagram.#all;
+    if (this.#diagram) all.delete(this);
+    else {
+      this.#diagram = voronoi.lonLat(this.#lonLat);
+      KeptDiagram.#numSites += this.#size;
+    }
+    all.add(this);
+    for (const oldest of all) {
+      if (KeptDiagram.#numSites <= mostSites || oldest === this) break;
+      oldest.free();
+    }
+    return this.#diagram;
+  }
+
+  free() {
+    if (!this.#diagram) return;
+    this.#diagram.free();
+    this.#diagram = undefined;
+    KeptDiagram.#all.delete(this);
+    KeptDiagram.#numSites -= this.#size;
+  }
+}
+
+/** @type {FinalizationRegistry<KeptDiagram>} */
+const forgotten = new FinalizationRegistry((kept) => kept.free());
+
 class LazyDelaunay {
+  #kept;
+
   /** @param {any[]} points */
   constructor(points) {
-    this.points = points;
-    /** Position of a site in `points`. */
-    this.positions = finitePositions(points);
-    const { positions } = this;
-    const lonLat = new Float64Array(2 * positions.length);
-    for (let i = 0; i < positions.length; ++i) {
-      const p = points[positions[i]];
-      const [lon, lat] = Math.abs(p[1]) <= 90 ? p : withinPoles(+p[0], +p[1]);
-      lonLat[2 * i] = lon;
-      lonLat[2 * i + 1] = lat;
-    }
-    this.diagram = voronoi.lonLat(lonLat);
-    this.isWhole = positions.length === points.length;
+    /** Longitude and latitude of each point. */
+    this.places = copiedPlaces(points);
+    this.numPoints = points.length;
+    /** @type {number[]} Position of a site among the points. */
+    this.positions = [];
+    for (let i = 0; i < this.numPoints; ++i) if (!Number.isNaN(this.places[2 * i])) this.positions.push(i);
+    this.isWhole = this.positions.length === this.numPoints;
+    this.#kept = new KeptDiagram(this.isWhole ? this.places : this.places.filter((value) => !Number.isNaN(value)));
+    this.#kept.get(); // throws for what is no point
+    forgotten.register(this, this.#kept);
+  }
+
+  get diagram() {
+    return this.#kept.get();
   }
 
   /** @param {Uint32Array} sites */
@@ -68,10 +128,11 @@ class LazyDelaunay {
 
   /** The triangulation as planar code wants it. */
   delaunay() {
+    if (this.positions.length < 2) return {};
     const { triangles, neighbors } = this.diagram;
-    const places = this.positions.map((p) => /** @type {LonLat} */ (withinPoles(+this.points[p][0], +this.points[p][1])));
-    const view = /** @type {any} */ (planarView(places, triangles, neighbors));
-    return view.triangles ? { ...view, triangles: this.toPositions(triangles) } : view;
+    /** @type {LonLat[]} */
+    const places = Array.from({ length: this.numPoints }, (_, i) => [this.places[2 * i], this.places[2 * i + 1]]);
+    return planarView(places, this.positions[0], this.toPositions(triangles), neighbors);
   }
 
   /** Corners of the faces as positions. */
@@ -132,7 +193,7 @@ class LazyDelaunay {
 
   neighbors() {
     /** @type {number[][]} */
-    const result = this.points.map(() => []);
+    const result = Array.from({ length: this.numPoints }, () => []);
     const corners = this.corners();
     for (let h = 0; h < corners.length; ++h) result[corners[h]].push(corners[following(h)]);
     if (corners.length === 0) {
@@ -152,7 +213,7 @@ class LazyDelaunay {
     const cosine = (i, j) =>
       points[3 * i] * points[3 * j] + points[3 * i + 1] * points[3 * j + 1] + points[3 * i + 2] * points[3 * j + 2];
     /** @type {(number[] | undefined)[]} */
-    const result = new Array(this.points.length).fill(undefined);
+    const result = new Array(this.numPoints).fill(undefined);
     for (let site = 0; site < this.positions.length; ++site) {
       const [begin, end] = [offsets[site], offsets[site + 1]];
       if (begin === end) continue;
@@ -194,7 +255,7 @@ class LazyDelaunay {
   /** @param {Pair[]} edges @param {[number, number, number][]} triangles */
   urquhart(edges, triangles) {
     /** @param {number} a @param {number} b */
-    const key = (a, b) => Math.min(a, b) * this.points.length + Math.max(a, b);
+    const key = (a, b) => Math.min(a, b) * this.numPoints + Math.max(a, b);
     const number = new Map(edges.map(([a, b], i) => [key(a, b), i]));
     return (/** @type {import("../arguments.js").Numbers} */ given) => {
       const distances = numbersFor(given, edges.length, "distances", "edges");

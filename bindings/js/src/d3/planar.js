@@ -56,15 +56,15 @@ function oppositeHalfedges(triangles, neighbors) {
 }
 
 /**
- * @param {LonLat[]} points
- * @param {Uint32Array} triangles
+ * @param {LonLat[]} places of all points; NaN for those that are not finite
+ * @param {number} first the first that is finite
+ * @param {Uint32Array} triangles positions in places
  * @param {Uint32Array} neighbors
  */
-export function planarView(points, triangles, neighbors) {
-  if (points.length < 2) return {};
-  const projection = stereographicFrom(points[0]);
+export function planarView(places, first, triangles, neighbors) {
+  const projection = stereographicFrom(places[first]);
   const halfedges = oppositeHalfedges(triangles, neighbors);
-  const inedges = new Int32Array(points.length).fill(-1);
+  const inedges = new Int32Array(places.length).fill(-1);
   for (let h = 0; h < triangles.length; ++h) inedges[triangles[h - (h % 3) + ((h + 1) % 3)]] = h;
-  return { points: Float64Array.from(points.flatMap(projection)), triangles, halfedges, inedges, projection };
+  return { points: Float64Array.from(places.flatMap(projection)), triangles, halfedges, inedges, projection };
 }
