@@ -136,6 +136,50 @@ test("the planar view is a triangulation with a projection", () => {
   assert.deepEqual(projection.invert([Infinity, 0]), points[0]);
 });
 
+test("the planar view has a place for each point, finite or not", () => {
+  const finite = randomLonLat(30, 14);
+  const points = [[NaN, 0], ...finite.slice(0, 10), [1, Infinity], [null, 3], ...finite.slice(10)];
+  const { triangles, inedges, projection, points: plane } = rondel.geoDelaunay(points).delaunay;
+  assert.equal(plane.length, 2 * points.length);
+  assert.equal(inedges.length, points.length);
+  for (const i of [0, 11, 12]) {
+    assert.equal(inedges[i], -1);
+    assert.ok(Number.isNaN(plane[2 * i]) && Number.isNaN(plane[2 * i + 1]));
+  }
+  for (let h = 0; h < triangles.length; ++h) {
+    const i = triangles[h];
+    const into = inedges[i];
+    assert.equal(triangles[into % 3 === 2 ? into - 2 : into + 1], i);
+    if (i !== 1) assert.ok(isClose(projection.invert([plane[2 * i], plane[2 * i + 1]]), points[i]));
+  }
+});
+
+test("points are read once, from arrays or what is like one", () => {
+  const points = randomLonLat(40, 15);
+  const expected = rondel.geoDelaunay(points);
+  const alike = rondel.geoDelaunay(points.map(([lon, lat]) => ({ 0: lon, 1: lat })));
+  assert.deepEqual(alike.triangles, expected.triangles);
+  const changed = points.map((p) => [...p]);
+  const later = rondel.geoDelaunay(changed);
+  for (const p of changed) p[0] = 0;
+  changed.length = 3;
+  for (const name of ["triangles", "edges", "neighbors", "polygons", "hull", "mesh"]) {
+    assert.deepEqual(later[name], expected[name], name);
+  }
+  assert.deepEqual(later.delaunay.points, expected.delaunay.points);
+  assert.equal(later.find(10, 20), expected.find(10, 20));
+});
+
+test("the properties of a cell are plain, and can be copied", () => {
+  const points = randomLonLat(30, 16);
+  const [ours, theirs] = [rondel, d3].map(({ geoVoronoi }) => geoVoronoi(points).polygons().features[7].properties);
+  assert.deepEqual(Object.keys(ours), Object.keys(theirs));
+  const expected = sorted([theirs.neighbours]);
+  for (const copy of [{ ...ours }, JSON.parse(JSON.stringify(ours)), structuredClone(ours)]) {
+    assert.deepEqual(sorted([copy.neighbours]), expected);
+  }
+});
+
 test("contours and bands agree with d3's, as areas", () => {
   const random = randomNumbers(10);
   const data = randomLonLat(400, 11).map(([lon, lat]) => [lon, lat, Math.sin((lon * Math.PI) / 90) * 20 + lat + random()]);

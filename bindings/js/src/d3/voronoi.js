@@ -83,24 +83,6 @@ function addMethod(v, name, make) {
   };
 }
 
-/** The properties of a cell. Its neighbors, which d3 does not document, are computed when they are read. */
-class CellProperties {
-  #delaunay;
-  #position;
-
-  /** @param {any} site @param {LonLat} sitecoordinates @param {import("./delaunay.js").GeoDelaunay} delaunay @param {number} position */
-  constructor(site, sitecoordinates, delaunay, position) {
-    this.site = site;
-    this.sitecoordinates = sitecoordinates;
-    this.#delaunay = delaunay;
-    this.#position = position;
-  }
-
-  get neighbours() {
-    return this.#delaunay.neighbors[this.#position];
-  }
-}
-
 /** @param {number[] | undefined} polygon @param {LonLat[]} centers */
 function polygonOf(polygon, centers) {
   if (!polygon) return null;
@@ -114,11 +96,11 @@ function polygonOf(polygon, centers) {
 function addDiagram(v) {
   addMethod(v, "polygons", () => {
     const { delaunay, points, valid } = v;
-    const { centers, polygons } = delaunay;
+    const { centers, polygons, neighbors } = delaunay;
     const features = [];
     for (let i = 0; i < points.length; ++i) {
       const geometry = polygons.length > 0 ? polygonOf(polygons[i], centers) : i === 0 ? { type: "Sphere" } : null;
-      features.push(feature(geometry, new CellProperties(valid[i], points[i], delaunay, i)));
+      features.push(feature(geometry, { site: valid[i], sitecoordinates: points[i], neighbours: neighbors[i] }));
     }
     return collection(features);
   });
