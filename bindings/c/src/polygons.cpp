@@ -39,6 +39,9 @@ std::vector<std::uint64_t> copied_offsets(const std::uint64_t* offsets, std::siz
   for (std::size_t i = 1; i <= n; ++i) {
     if (given[i] < given[i - 1]) throw InvalidInput(std::string(name) + " decrease", i);
   }
+  if (given[n] >= max_sites) {
+    throw InvalidInput(std::string(name) + " count more than can be", n);
+  }
   return {given.begin(), given.end()};
 }
 
@@ -88,7 +91,8 @@ namespace {
 // Throws InvalidInput unless these polygons exist, increase and have no rings.
 void require_whole(std::span<const Index> whole, std::span<const std::uint64_t> cells) {
   for (std::size_t i = 0; i < whole.size(); ++i) {
-    if (whole[i] + std::size_t{1} >= cells.size() || (i > 0 && whole[i] <= whole[i - 1]) ||
+    // An index has as many bits as a size on some machines, so that the one after it may be 0.
+    if (whole[i] >= cells.size() - 1 || (i > 0 && whole[i] <= whole[i - 1]) ||
         cells[whole[i]] != cells[whole[i] + std::size_t{1}]) {
       throw InvalidInput("polygon " + std::to_string(whole[i]) +
                              " is not there, not in order, or has rings; it cannot be whole",

@@ -76,7 +76,8 @@ export class Engine {
 
   /** @param {number} bytes */
   allocate(bytes) {
-    const place = this.functions.malloc(Math.max(bytes, 8)) >>> 0;
+    // The module counts bytes by 32 bits: 2^32 + 8 would be 8.
+    const place = bytes < 2 ** 32 ? this.functions.malloc(Math.max(bytes, 8)) >>> 0 : 0;
     if (place === 0) throw new RangeError("Rondel: out of memory");
     return place;
   }
