@@ -21,7 +21,7 @@ import { RondelError } from "./errors.js";
  */
 
 /** The names of Options. */
-export const sphereOptions = ["model", "center", "squaredRadius"];
+const sphereOptions = ["model", "center", "squaredRadius"];
 
 /** @param {any} value */
 const isNumberArray = (value) => Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView));

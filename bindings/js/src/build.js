@@ -3,7 +3,7 @@
 
 // Makes triangulations, and sites from longitudes and latitudes.
 
-import { named, numbers, numbersFor, placeOptions, shown, sphereOptions } from "./arguments.js";
+import { named, numbers, numbersFor, placeOptions, shown } from "./arguments.js";
 import { engine } from "./engine.js";
 import { RondelError } from "./errors.js";
 import { unitVectorsBy } from "./instance.js";
@@ -58,11 +58,12 @@ export function polarPoints(lonLat, radii) {
 }
 
 /**
- * With `radii`, degrees in [0, 90), the sites are circles, in the weighted model.
- * @typedef {Options & {radii?: Numbers}} LonLatOptions
+ * The sphere is the unit sphere around the origin. With `radii`, degrees in [0, 90), the sites are circles, in the
+ * weighted model.
+ * @typedef {Pick<Options, "model"> & {radii?: Numbers}} LonLatOptions
  */
 
-const lonLatOptions = [...sphereOptions, "radii"];
+const lonLatOptions = ["model", "radii"];
 
 /**
  * Returns the function that makes a Type of sites, with its lonLat().

@@ -32,7 +32,7 @@ const sphere = {
 };
 export const sphereOptions = optional(called("options", options(sphere)));
 const circlesProjected = { value: { radii: [5, 6], model: "projected" }, index: 0, words: ["model"] };
-const circles = options({ ...sphere, radii: optional(radii) });
+const circles = options({ model: sphere.model, radii: optional(radii) });
 export const lonLatOptions = optional(called("options", and(circles, circlesProjected)));
 export const ids = called("ids site", list([1, 2], [[1, 1], [2 ** 31]]));
 export const movedIds = called("ids site sites", list([1, 2], [[1, 2 ** 31], [1], []]));

@@ -127,3 +127,16 @@ test("places are located on vertices, edges and faces", () => {
 test("unit vectors of quadrants are exact", () => {
   assert.deepEqual([...unitVectors([0, 90, 90, 0, 180, 0])], [0, 0, 1, 0, 1, 0, -1, 0, 0]);
 });
+
+test("places in longitude and latitude have no other sphere", () => {
+  for (const make of [delaunay, voronoi]) {
+    for (const option of [{ center: [0, 0, 0.5] }, { squaredRadius: 2 }, { centre: 1 }]) {
+      const [name] = Object.keys(option);
+      assert.throws(() => make.lonLat([0, 0, 90, 0, 0, 90], option), {
+        name: "TypeError",
+        message: `options: there is no "${name}"; the names are model, radii`,
+      });
+      assert.throws(() => make.lonLat([0, 0, 90, 0, 0, 90], { radii: [1, 2, 3], ...option }), TypeError);
+    }
+  }
+});
