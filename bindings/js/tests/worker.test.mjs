@@ -7,7 +7,10 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { delaunay, RondelError, voronoi } from "rondel";
 import { triangulate } from "rondel/polygons";
-import { startWorker } from "rondel/worker";
+import { RondelWorker, startWorker } from "rondel/worker";
+import { engine } from "../node_modules/rondel/src/engine.js";
+import { serve } from "../node_modules/rondel/src/worker/serve.js";
+import { spawnThread } from "../node_modules/rondel/src/worker/threads.js";
 import { randomSites } from "./support.mjs";
 
 test("a worker answers as the functions do", async (t) => {
@@ -57,4 +60,86 @@ test("sites of a worker change", async (t) => {
   await assert.rejects(dynamic.remove([3]), (error) => error instanceof RondelError && error.index === 0);
   await assert.rejects(rondel.delaunay([1, 0, 0, NaN, 0, 0]), { name: "RondelError", index: 1 });
   await assert.rejects(rondel.delaunay("no"), TypeError);
+});
+
+/** A connection that serves requests here, and lists them. */
+function localConnection() {
+  const posted = [];
+  let handle;
+  let fail;
+  return {
+    posted,
+    failWith: (reason) => fail(reason),
+    post: (message) => {
+      posted.push(message);
+      if (message.method !== "dynamic") serve(message, (reply) => handle(reply));
+    },
+    listen: (...given) => ([handle, fail] = given),
+    stop: async () => {},
+  };
+}
+
+const collected = async (isDone) => {
+  for (let i = 0; i < 50 && !isDone(); ++i) {
+    globalThis.gc();
+    await new Promise((resolve) => setTimeout(resolve, 1));
+  }
+};
+
+test("a result that nothing refers to is freed in the worker", { skip: globalThis.gc === undefined }, async () => {
+  const connection = localConnection();
+  const rondel = new RondelWorker(connection);
+  const freed = () => connection.posted.filter(({ method }) => method === "free").length;
+  const xyz = randomSites(50, 4);
+  await rondel.voronoi(xyz);
+  await rondel.delaunay(xyz);
+  const { nearest } = await rondel.delaunay(xyz); // a method alone keeps its object
+  const kept = await rondel.voronoi(xyz);
+  await (await rondel.voronoi(xyz)).free(); // once
+  await collected(() => freed() === 3);
+  assert.equal(freed(), 3);
+  assert.equal((await nearest([0, 0, 1])).length, 1);
+  assert.equal((await kept.nearest([0, 0, 1])).length, 1);
+  assert.equal(freed(), 3);
+});
+
+test("what a worker cannot describe it does not keep", async () => {
+  const owner = engine();
+  const { functions } = owner;
+  let numFreed = 0;
+  owner.functions = {
+    ...functions,
+    rondel_diagram_create: () => 3, // out of memory
+    rondel_triangulation_free: (place) => {
+      ++numFreed;
+      functions.rondel_triangulation_free(place);
+    },
+  };
+  let reply;
+  try {
+    await serve({ id: 1, object: 0, method: "voronoi", args: [randomSites(50, 5)] }, (given) => (reply = given));
+  } finally {
+    owner.functions = functions;
+  }
+  assert.equal(reply.error.name, "RangeError");
+  assert.equal(numFreed, 1);
+});
+
+test("a worker that fails rejects what waits for it, and what comes later", async () => {
+  const connection = localConnection();
+  const rondel = new RondelWorker(connection);
+  const diagram = await rondel.voronoi(randomSites(20, 6));
+  const waiting = rondel.dynamic();
+  connection.failWith("it ended");
+  await assert.rejects(waiting, { name: "Error", message: "the worker failed: it ended" });
+  await assert.rejects(rondel.delaunay([1, 0, 0]), /the worker failed/);
+  await assert.rejects(diagram.nearest([1, 0, 0]), /the worker failed/);
+  await rondel.stop();
+});
+
+test("a worker that cannot be loaded fails", async () => {
+  const rondel = new RondelWorker(spawnThread(new URL("./no_such_file.mjs", import.meta.url)));
+  await assert.rejects(rondel.delaunay([1, 0, 0]), /the worker failed: .*no_such_file/);
+  await assert.rejects(rondel.dynamic(), /the worker failed/);
+  await rondel.stop();
 });

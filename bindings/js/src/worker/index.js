@@ -91,7 +91,8 @@ const drawing = { drawn: ["options"], nearest: ["lon", "lat"], free: [] };
 /**
  * @typedef {object} Connection to a worker
  * @property {(message: any) => void} post
- * @property {(handle: (data: any) => void) => void} listen
+ * @property {(handle: (data: any) => void, fail: (reason: string) => void) => void} listen `fail` is called when there
+ *   will be no answers, as where the worker does not load
  * @property {() => Promise<void>} stop
  */
 
@@ -101,7 +102,11 @@ async function spawn() {
     const worker = new Worker(new URL("./browser.js", import.meta.url), { type: "module" });
     return {
       post: (/** @type {any} */ message) => worker.postMessage(message),
-      listen: (/** @type {(data: any) => void} */ handle) => void (worker.onmessage = (event) => handle(event.data)),
+      listen: (/** @type {(data: any) => void} */ handle, /** @type {(reason: string) => void} */ fail) => {
+        worker.onmessage = (event) => handle(event.data);
+        worker.onmessageerror = () => fail("an answer cannot be read");
+        worker.onerror = (event) => fail(event.message || "it cannot be loaded"); // a file that is not there has no message
+      },
       stop: async () => worker.terminate(),
     };
   }
@@ -130,6 +135,10 @@ export class RondelWorker {
   #connection;
   #lastId = 0;
   #isStopped = false;
+  /** Why there are no more answers. @type {Error | undefined} */
+  #failure;
+  /** The numbers of objects in the worker whose methods nothing refers to any more. @type {FinalizationRegistry<number>} */
+  #forgotten = new FinalizationRegistry((object) => this.#release(object));
   /** @type {Map<number, {resolve: (value: any) => void, reject: (error: Error) => void}>} */
   #waiting = new Map();
 
@@ -137,12 +146,28 @@ export class RondelWorker {
   constructor(connection) {
     if (typeof connection?.listen !== "function") throw new TypeError("startWorker() makes workers, not this constructor");
     this.#connection = connection;
-    connection.listen(({ id, value, error }) => {
-      const { resolve, reject } = /** @type {any} */ (this.#waiting.get(id));
-      this.#waiting.delete(id);
-      if (error) reject(revived(error));
-      else resolve(value);
-    });
+    connection.listen(
+      ({ id, value, error }) => {
+        const waiting = this.#waiting.get(id);
+        this.#waiting.delete(id);
+        if (error) waiting?.reject(revived(error));
+        else waiting?.resolve(value);
+      },
+      (reason) => this.#fail(reason),
+    );
+  }
+
+  /** Rejects all requests, unless the worker was told to end. @param {string} reason */
+  #fail(reason) {
+    if (this.#isStopped || this.#failure) return;
+    this.#failure = new Error(`the worker failed: ${reason}`);
+    for (const { reject } of this.#waiting.values()) reject(this.#failure);
+    this.#waiting.clear();
+  }
+
+  /** Frees an object in the worker; nobody waits for the answer. @param {number} object */
+  #release(object) {
+    if (!this.#isStopped && !this.#failure) this.#connection.post({ id: ++this.#lastId, object, method: "free", args: [] });
   }
 
   /**
@@ -155,6 +180,7 @@ export class RondelWorker {
    */
   #ask(object, method, names, args) {
     if (this.#isStopped) throw new RondelError(`${method}() is used after the worker was stopped`, 0);
+    if (this.#failure) throw this.#failure;
     return new Promise((resolve, reject) => {
       try {
         this.#connection.post({ id: ++this.#lastId, object, method, args: args.slice(0, names.length) });
@@ -168,9 +194,12 @@ export class RondelWorker {
 
   /** @param {any} result @param {Methods} methods */
   #remote({ object, ...result }, methods) {
+    const held = { object }; // by each method: one that was taken out of the result keeps the object, too
+    this.#forgotten.register(held, object, held);
     for (const [method, names] of Object.entries(methods)) {
       result[method] = async (/** @type {any[]} */ ...args) => {
-        const value = await this.#ask(object, method, names, args);
+        if (method === "free") this.#forgotten.unregister(held);
+        const value = await this.#ask(held.object, method, names, args);
         return method === "snapshot" ? this.#remote(value, questions) : value;
       };
     }

@@ -23,10 +23,20 @@ function keep(object) {
   return lastObject;
 }
 
-/** @param {any} triangulation @param {string[]} names */
-function described(triangulation, names) {
-  const object = keep(triangulation);
-  return Object.fromEntries([["object", object], ...names.map((name) => [name, triangulation[name]])]);
+/**
+ * Keeps an object, and returns its number and some of its properties. It is freed if they cannot be read, as where
+ * memory runs out.
+ * @param {any} object
+ * @param {string[]} names
+ */
+function described(object, names) {
+  try {
+    const read = Object.fromEntries(names.map((name) => [name, object[name]]));
+    return { object: keep(object), ...read };
+  } catch (error) {
+    object.free();
+    throw error;
+  }
 }
 
 const makers = {
@@ -40,12 +50,9 @@ const makers = {
     return triangulate(.../** @type {[any]} */ (args));
   },
   /** @param {any[]} args */
-  sites: (...args) => {
-    const sites = new DrawnSites(.../** @type {[any]} */ (args));
-    return { object: keep(sites), numSites: sites.numSites };
-  },
+  sites: (...args) => described(new DrawnSites(.../** @type {[any]} */ (args)), ["numSites"]),
   /** @param {any[]} args */
-  dynamic: (...args) => ({ object: keep(new DynamicTriangulation(...args)) }),
+  dynamic: (...args) => described(new DynamicTriangulation(...args), []),
 };
 
 /** @param {{object: number, method: string, args: any[]}} message */

@@ -5,12 +5,17 @@
 
 import { Worker } from "node:worker_threads";
 
-/** @returns {import("./index.js").Connection} */
-export function spawnThread() {
-  const worker = new Worker(new URL("./node.js", import.meta.url));
+/** @param {URL} [entry] the code of the thread @returns {import("./index.js").Connection} */
+export function spawnThread(entry = new URL("./node.js", import.meta.url)) {
+  const worker = new Worker(entry);
   return {
     post: (message) => worker.postMessage(message),
-    listen: (handle) => void worker.on("message", handle),
+    listen: (handle, fail) => {
+      worker.on("message", handle);
+      worker.on("messageerror", (error) => fail(error.message));
+      worker.on("error", (error) => fail(error.message));
+      worker.on("exit", (code) => fail(`it ended with code ${code}`));
+    },
     stop: async () => void (await worker.terminate()),
   };
 }
