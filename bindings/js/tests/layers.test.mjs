@@ -49,6 +49,24 @@ test("the site at a place is the nearest one, and has its value", async (t) => {
   await assert.rejects(sites.at(0, 100), { name: "RondelError" });
 });
 
+test("sites keep what was drawn last, and nothing that failed", async (t) => {
+  const sites = await opened(t, { ...places, values });
+  const first = sites.drawn({ show: "triangles", spacing: 0 });
+  const wrong = () => sites.drawn({ show: "cells", spacing: 1e-9 });
+  const failed = wrong();
+  await assert.rejects(failed);
+  const again = wrong();
+  assert.notEqual(again, failed);
+  await assert.rejects(again);
+  for (let i = 0; i < 20; ++i) {
+    sites.drawn({ show: "isolines", levels: [i] });
+    if (i < 10) assert.equal(sites.drawn({ show: "triangles", spacing: 0 }), first);
+  }
+  assert.equal(sites.drawn({ show: "isolines", levels: [19] }), sites.drawn({ show: "isolines", levels: [19] }));
+  for (let i = 20; i < 40; ++i) await sites.drawn({ show: "isolines", levels: [i] });
+  assert.notEqual(sites.drawn({ show: "triangles", spacing: 0 }), first);
+});
+
 test("layers that show the same share it, and isolines follow the values", async (t) => {
   const sites = await opened(t, { ...places, values });
   const [one, two] = [sites.drawn({ show: "cells" }), sites.drawn({ show: "cells" })];

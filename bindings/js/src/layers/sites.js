@@ -22,6 +22,8 @@ import { extent } from "./colors.js";
 
 const noIndex = 0xffffffff;
 
+const mostKept = 16; // what is drawn for more layers than these is made again
+
 /** A copy of the values of n sites. @param {Numbers} values @param {number} n */
 const valuesFor = (values, n) => numbersFor(values, n, "values", "sites").slice();
 
@@ -98,7 +100,8 @@ export class SphereSites {
   }
 
   /**
-   * Returns the arrays that a layer draws; layers that show the same share them.
+   * Returns the arrays that a layer draws; layers that show the same share them, as long as these are among the last 16
+   * that were asked.
    * @param {Omit<DrawnOptions, "values">} [options] isolines are those of the sites' values
    * @returns {Promise<Mesh | Lines>}
    */
@@ -106,12 +109,20 @@ export class SphereSites {
     const { show, spacing, levels } = drawnOptions(named(options, ["show", "spacing", "levels"]));
     const key = [show, spacing, ...(levels ?? [])].join();
     const values = show === "isolines" ? this.values : undefined;
-    let made = this.#made.get(key);
-    if (!made) {
-      made = this.#remote.drawn({ show, spacing, values, levels });
-      this.#made.set(key, made);
-    }
+    const made = this.#made.get(key) ?? this.#remote.drawn({ show, spacing, values, levels });
+    this.#keep(key, made);
     return made;
+  }
+
+  /** Keeps what is made, as the last one that was asked, unless it fails. @param {string} key @param {Promise<Mesh | Lines>} made */
+  #keep(key, made) {
+    this.#made.delete(key);
+    this.#made.set(key, made);
+    made.catch(() => this.#made.get(key) === made && this.#made.delete(key));
+    for (const oldest of this.#made.keys()) {
+      if (this.#made.size <= mostKept) break;
+      this.#made.delete(oldest);
+    }
   }
 
   /**
