@@ -9,6 +9,7 @@ import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
+import { brotliCompressSync } from "node:zlib";
 
 const folder = dirname(createRequire(import.meta.url).resolve("rondel/package.json"));
 const description = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
@@ -25,6 +26,16 @@ test("the package needs no other, and has a licence, types and a version", () =>
     assert.ok(readFileSync(join(folder, types), "utf8").includes("export"));
     assert.ok(statSync(join(folder, code)).isFile());
   }
+});
+
+test("the guide says how much a page loads", () => {
+  const guide = readFileSync(join(process.env.RONDEL_SOURCE_DIR, "docs", "guide", "javascript.md"), "utf8");
+  const said = [...guide.split("\n## ")[0].matchAll(/(\d\.\d\d) MB/g)].map(([, size]) => Number(size));
+  const sizes = ["src/module.js", "src/polygons/module.js"].map(
+    (file) => brotliCompressSync(readFileSync(join(folder, file))).length / 1e6,
+  );
+  assert.equal(said.length, 2);
+  said.forEach((size, i) => assert.ok(Math.abs(size - sizes[i]) < 0.01, `${size} ${sizes[i]}`));
 });
 
 test("the examples have the versions that are tested", () => {
