@@ -41,8 +41,8 @@ struct PolygonTriangles {
 /// \param spacing_deg  degrees of arc; 0: no points are added for the sake of it
 /// \throws InvalidInput if offsets do not fit, the spacing is negative or not finite, or so small
 ///         that more than 100 million points would be added; (the polygon) if a corner is not
-///         finite, or sides do not close rings that have the interior on one side; or as
-///         constrained_delaunay()
+///         finite, a side leads to the opposite point, or sides do not close rings that have the
+///         interior on one side; or as constrained_delaunay()
 RONDEL_API PolygonTriangles triangles_of_polygons(const CellRings& polygons, double spacing_deg = 0,
                                                   const Execution& execution = {});
 

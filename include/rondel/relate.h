@@ -78,9 +78,9 @@ struct Relation {
 /// O(min(n, m) log(n + m)), and as many steps as sides meet.
 /// \param first, second  the polygons of A and of B; corners as arrange() wants them
 ///        (rondel/arrangement.h)
-/// \throws InvalidInput if offsets do not fit, or the numbers of polygons; (the position of the
-///         side among the corners) if a side leads to the opposite point, up to 2^-45; (the
-///         position) if a point is no unit vector; (the index) if a polygon is not valid
+/// \throws InvalidInput if offsets do not fit, or the numbers of polygons; (the index) if a polygon
+///         is not valid, has a side that leads to the opposite point, up to 2^-45, or has a point
+///         that is no unit vector
 RONDEL_API std::vector<Relation> relate(const CellRings& first, const CellRings& second,
                                         const Execution& execution = {});
 

@@ -56,17 +56,45 @@ Operand operand_of(const Geometries& geometries) {
   return {&geometries.lines, geometries.polygons};
 }
 
-// Throws InvalidInput if an operand is not as relate() wants it.
-void validate_operand(const Operand& operand) {
+// Returns the first polygon that has a point, or no_index.
+Index polygon_with(const CellRings& cells, std::size_t point) {
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const std::uint64_t end = cells.rings[cells.cells[i + 1]];
+    for (std::uint64_t k = cells.rings[cells.cells[i]]; k < end; ++k) {
+      if (cells.corners[k] == point) return static_cast<Index>(i);
+    }
+  }
+  return no_index;
+}
+
+// Throws InvalidInput with the polygon that has a bad point, or with the point if none has it.
+void validate_corners(const CellRings& cells, const char* name) {
+  try {
+    arrangement::validate_points(cells.points);
+  } catch (const InvalidInput& error) {
+    const Index polygon = polygon_with(cells, error.index());
+    if (polygon == no_index) throw;
+    throw InvalidInput("polygon " + std::to_string(polygon) + " of the " + name +
+                           " operand, point " + std::to_string(error.index()) + ": " + error.what(),
+                       polygon);
+  }
+}
+
+// Throws InvalidInput if an operand is not as relate() wants it: with a polygon or line.
+void validate_operand(const Operand& operand, const char* name) {
   const CellRings& cells = operand.polygons;
   arrangement::validate_rings(cells);
-  arrangement::validate_points(cells.points);
-  for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
-    const std::span<const Index> ring = cells.corners_of(r);
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      arrangement::validate_ends(cells.points[ring[k]],
-                                 cells.points[ring[k + 1 == ring.size() ? 0 : k + 1]],
-                                 cells.rings[r] + k);
+  validate_corners(cells, name);
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
+      const std::span<const Index> ring = cells.corners_of(r);
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const Point& to = cells.points[ring[k + 1 == ring.size() ? 0 : k + 1]];
+        if (!arrangement::are_opposite(cells.points[ring[k]], to)) continue;
+        throw InvalidInput("polygon " + std::to_string(i) + " of the " + name +
+                               " operand has a side that leads to the opposite point",
+                           i);
+      }
     }
   }
   if (operand.lines == nullptr) return;
@@ -227,16 +255,16 @@ class PreparedOperands {
   PreparedOperands(const Operand& first, const Operand& second, unsigned threads)
       : is_same_(first == second) {
     std::vector<Point> all;
-    const auto append = [&](const Operand& operand) {
-      validate_operand(operand);
+    const auto append = [&](const Operand& operand, const char* name) {
+      validate_operand(operand, name);
       all.insert(all.end(), operand.polygons.points.begin(), operand.polygons.points.end());
       if (operand.lines == nullptr) return;
       const std::vector<Point>& points = operand.lines->rows.values;
       all.insert(all.end(), points.begin(), points.end());
     };
-    append(first);
+    append(first, "first");
     const std::size_t num_first = all.size();
-    if (!is_same_) append(second);
+    if (!is_same_) append(second, "second");
     arrangement::NumberedPoints nodes = arrangement::numbered(all, 0, threads);
     points_ = std::move(nodes.points);
     const std::span<const Index> numbers = nodes.numbers;

@@ -16,7 +16,9 @@
 #include <string>
 #include <utility>
 
+#include "arrangement/arc_checks.h"
 #include "arrangement/ring_arrays.h"
+#include "constrained/constraints.h"
 #include "rondel/constrained.h"
 #include "rondel/constrained_features.h"
 #include "rondel/delaunay.h"
@@ -148,6 +150,25 @@ struct FilledPolygons {
   CompressedRows<Index> faces;
 };
 
+// Throws InvalidInput with the first polygon of which arrange(), which splits sides that cross, would
+// refuse a side.
+void require_splittable(const SidesOfPolygons& given) {
+  for (std::size_t p = 0; p < given.polygons.size(); ++p) {
+    for (const Index side : given.polygons[p]) {
+      const auto [a, b] = given.constraints[side];
+      const std::array ends = {given.sites[a], given.sites[b]};
+      try {
+        arrangement::validate_points(ends);
+        arrangement::validate_ends(ends[0], ends[1], p);
+      } catch (const InvalidInput& error) {
+        throw InvalidInput(
+            "polygon " + std::to_string(p) + " has a side that cannot be divided: " + error.what(),
+            p);
+      }
+    }
+  }
+}
+
 FilledPolygons faces_of(const SidesOfPolygons& given, const Sites& sites,
                         const Execution& execution) {
   const auto build = [&](ConstraintCrossings crossings) {
@@ -157,6 +178,7 @@ FilledPolygons faces_of(const SidesOfPolygons& given, const Sites& sites,
   try {
     made = build(ConstraintCrossings::refuse);
   } catch (const CrossingConstraints&) {
+    require_splittable(given);
     made = build(ConstraintCrossings::split);
   }
   FilledPolygons filled;
@@ -344,6 +366,33 @@ std::optional<PolygonTriangles> triangles_by_numbers(const CellRings& polygons,
   return std::nullopt;
 }
 
+// Throws InvalidInput with the first polygon that has a side without an arc.
+void require_arcs_of(const SidesOfPolygons& given) {
+  for (std::size_t p = 0; p < given.polygons.size(); ++p) {
+    for (const Index side : given.polygons[p]) {
+      require_arc(given.sites, given.constraints[side], {},
+                  "polygon " + std::to_string(p) + " has a side that", p);
+    }
+  }
+}
+
+// Triangulates polygons, with points in their inside unless the spacing is 0.
+PolygonTriangles triangles_by_places(const CellRings& polygons, double spacing_deg,
+                                     const Execution& execution) {
+  SidesOfPolygons sides = sides_of(polygons);
+  try {
+    std::vector<Point> added;
+    if (spacing_deg > 0) {
+      sides = sides_of(HalvedSides(polygons, std::min(spacing_deg, 180.0)).made());
+      added = inner_points(sides, spacing_deg, execution);
+    }
+    return compacted(filled(sides, added, execution));
+  } catch (const InvalidInput&) {
+    require_arcs_of(sides);  // what the triangulation says of a side has no polygon
+    throw;
+  }
+}
+
 void require_spacing(double spacing_deg) {
   if (spacing_deg >= 0 && spacing_deg <= std::numeric_limits<double>::max()) return;
   throw InvalidInput("the spacing " + system::shortest_text(spacing_deg) +
@@ -360,14 +409,7 @@ PolygonTriangles triangles_of_polygons(const CellRings& polygons, double spacing
   if (spacing_deg == 0) {
     if (auto made = constrained::triangles_by_numbers(polygons, execution)) return std::move(*made);
   }
-  constrained::SidesOfPolygons sides = constrained::sides_of(polygons);
-  std::vector<Point> added;
-  if (spacing_deg > 0) {
-    sides = constrained::sides_of(
-        constrained::HalvedSides(polygons, std::min(spacing_deg, 180.0)).made());
-    added = constrained::inner_points(sides, spacing_deg, execution);
-  }
-  return constrained::compacted(constrained::filled(sides, added, execution));
+  return constrained::triangles_by_places(polygons, spacing_deg, execution);
 }
 
 }  // namespace rondel

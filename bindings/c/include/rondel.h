@@ -479,7 +479,8 @@ RONDEL_C_API rondel_status rondel_repair(const rondel_polygons* polygons,
 
 /** Writes how polygon i of A lies to polygon i of B, for each i: nine characters of 2 1 0 F, the DE-9IM matrix, and a zero;
  *  shape (n, RONDEL_RELATION_SIZE). If one of A and B has one polygon, n is the number of the other one's.
- *  RONDEL_INVALID_INPUT: numbers do not fit; the index of a polygon that is not valid (rondel_repair()). */
+ *  RONDEL_INVALID_INPUT: numbers do not fit; the index of a polygon that is not valid (rondel_repair()) or has a side that
+ *  leads to the opposite point. */
 RONDEL_C_API rondel_status rondel_relate(const rondel_polygons* a, const rondel_polygons* b,
                                          const rondel_execution* execution, char* relations);
 /** Writes the relations of n pairs of a polygon of A and one of B, shape (n, 2). */
@@ -644,8 +645,8 @@ typedef struct rondel_triangles rondel_triangles;
 
 /** Triangulates polygons together, exactly and never outside of them. `spacing_deg` is the length of the longest sides of
  *  triangles in degrees, about; 0: only the corners of polygons are corners of triangles.
- *  RONDEL_INVALID_INPUT: the spacing is negative, not finite or too small; the index of a polygon whose sides do not
- *  close rings that have the interior on one side. */
+ *  RONDEL_INVALID_INPUT: the spacing is negative, not finite or too small; the index of a polygon that has a side
+ *  that leads to the opposite point, or whose sides do not close rings that have the interior on one side. */
 RONDEL_C_API rondel_status rondel_triangulate_polygons(const rondel_polygons* polygons,
                                                        double spacing_deg,
                                                        const rondel_execution* execution,

@@ -11,6 +11,8 @@ import { test } from "node:test";
 import { geoArea } from "d3-geo";
 import { RondelError, unitVectors } from "rondel";
 import { geoTriangulate, triangulate } from "rondel/polygons";
+import { engine } from "../node_modules/rondel/src/polygons/engine.js";
+import { wideOffsets } from "../node_modules/rondel/src/polygons/triangulate.js";
 import { cross, difference, dot, point, sum } from "./support.mjs";
 
 const data = (name) => JSON.parse(readFileSync(join(process.env.RONDEL_SOURCE_DIR, "data", name), "utf8"));
@@ -216,4 +218,49 @@ test("triangles have the bytes that are recorded", () => {
     const text = hash.toString(16).padStart(16, "0");
     assert.ok(recorded.includes(`countries triangles-${spacing} ${text}\n`), text);
   }
+});
+
+const octant = polygon([[0, 0], [0, 90], [90, 0], [0, 0]]);
+const collection = (...geometries) => ({
+  type: "FeatureCollection",
+  features: geometries.map((geometry) => ({ type: "Feature", geometry })),
+});
+
+test("a Sphere in a collection is the whole sphere", () => {
+  const both = { type: "GeometryCollection", geometries: [{ type: "Sphere" }, octant] };
+  const { features } = geoTriangulate(collection(null, both, octant));
+  const alone = geoTriangulate(collection(null, { type: "Sphere" }, octant)).features;
+  assert.deepEqual(features, alone);
+  assert.deepEqual(features.map((triangles) => triangles.length), [0, 8, 1]);
+});
+
+test("a side without a shortest way is named by its feature", () => {
+  // Opposite up to rounding: the middle of three corners on one meridian is left out.
+  const side = polygon([[10, 20], [-170, -20.000000000000004], [60, 0], [10, 20]]);
+  for (const bad of [side, polygon([[0, 0], [180, 0], [60, 50], [0, 0]])]) {
+    for (const spacing of [0, 10]) {
+      try {
+        geoTriangulate(collection(null, octant, bad, octant), { spacing });
+      } catch (error) {
+        assert.ok(error instanceof RondelError, String(error.stack));
+        assert.equal(error.index, 2, error.message);
+        assert.doesNotMatch(error.message, /constraint/);
+      }
+    }
+  }
+  assert.throws(() => geoTriangulate(collection(octant, polygon([[0, 0], [180, 0], [60, 50], [0, 0]]))), { index: 1 });
+});
+
+test("polygons that are to be the sphere must be there", () => {
+  const owner = engine();
+  for (const absent of [1, 0xffffffff]) {
+    const make = () =>
+      owner.scoped((scope) =>
+        scope.made("rondel_polygons_create", scope.copy(wideOffsets([0, 0])), 1, 0, 0, scope.copy(Uint32Array.of(absent)), 1),
+      );
+    assert.throws(make, { name: "RondelError", message: /is not there/ });
+  }
+  const many = () =>
+    owner.scoped((scope) => scope.made("rondel_polygons_create", scope.copy(Uint32Array.of(0, 0, 0, 1)), 1, 0, 0, 0, 0));
+  assert.throws(many, { name: "RondelError", message: "polygons count more than can be", index: 1 });
 });

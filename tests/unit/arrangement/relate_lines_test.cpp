@@ -254,6 +254,17 @@ TEST(related_lines, several_dimensions_are_refused) {
   uneven.lines.end_group();
   EXPECT_EQ(thrown_message<InvalidInput>([&] { return relate(uneven, octant()); }),
             "there are not as many cells as groups of lines");
+  Geometries opposite = octant();
+  opposite.polygons.points.push_back({-1, 0, 0});
+  opposite.polygons.corners[1] = static_cast<Index>(opposite.polygons.points.size() - 1);
+  const auto relate_opposite = [&] { return relate(octant(), opposite); };
+  EXPECT_EQ(thrown_index(relate_opposite), 0U);
+  EXPECT_EQ(thrown_message<InvalidInput>(relate_opposite),
+            "polygon 0 of the second operand has a side that leads to the opposite point");
+  opposite.polygons.points.back().x = -2;
+  EXPECT_EQ(thrown_index(relate_opposite), 0U);
+  EXPECT_EQ(thrown_message<InvalidInput>(relate_opposite),
+            "polygon 0 of the second operand, point 3: no unit vector");
   Geometries turned = of({{{0, 0}, {90, 0}}});
   turned.lines.rows.values[1] = {-1, 0, 0};
   EXPECT_EQ(thrown_message<InvalidInput>([&] { return relate(turned, octant()); }),

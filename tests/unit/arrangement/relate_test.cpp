@@ -467,8 +467,10 @@ TEST(relate, refuses_what_is_no_valid_polygon) {
   bad = good;
   bad.corners[2] = 99;
   EXPECT_EQ(index_of(bad), InvalidInput::no_index);
-  EXPECT_EQ(index_of(polygon({{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}}})), 2U);
-  EXPECT_EQ(index_of(polygon({{{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}})), 1U);
+  EXPECT_EQ(message_of({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}}),
+            "polygon 1 of the first operand has a side that leads to the opposite point");
+  EXPECT_EQ(message_of({{1, 0, 0}, {0, 2, 0}, {0, 0, 1}}),
+            "polygon 1 of the first operand, point 5: no unit vector");
   CellRings two = good;
   add_cells(good, two);
   CellRings three = two;

@@ -20,21 +20,25 @@ import { trianglesOf, wideOffsets, withMade } from "./triangulate.js";
  */
 
 /**
- * The rings of features with the interior to their left, each corner once: a polygon of arcs for each feature.
+ * The rings of features with the interior to their left, each corner once: a polygon of arcs for each feature. A feature
+ * that is the whole sphere has no rings, whatever polygons lie in its collection.
  * @param {import("./geojson.js").FlatPolygons} flat
  */
-function turnedRings({ features, polygons, rings, lonLat }) {
+function turnedRings({ features, polygons, rings, lonLat, isSphere }) {
   /** @type {{cells: number[], rings: number[], lonLat: number[]}} */
-  const turned = { cells: [], rings: [0], lonLat: [] };
-  for (let r = 0; r + 1 < rings.length; ++r) {
-    const positions = [];
-    for (let k = rings[r]; k < rings[r + 1]; ++k) positions.push([lonLat[2 * k], lonLat[2 * k + 1]]);
-    const [first, last] = [positions[0], positions[positions.length - 1]];
-    if (positions.length > 1 && first[0] === last[0] && first[1] === last[1]) positions.pop();
-    for (const [lon, lat] of positions.reverse()) turned.lonLat.push(lon, lat);
-    turned.rings.push(turned.lonLat.length / 2);
+  const turned = { cells: [0], rings: [0], lonLat: [] };
+  for (let f = 0; f < isSphere.length; ++f) {
+    const end = isSphere[f] ? 0 : polygons[features[f + 1]];
+    for (let r = polygons[features[f]]; r < end; ++r) {
+      const positions = [];
+      for (let k = rings[r]; k < rings[r + 1]; ++k) positions.push([lonLat[2 * k], lonLat[2 * k + 1]]);
+      const [first, last] = [positions[0], positions[positions.length - 1]];
+      if (positions.length > 1 && first[0] === last[0] && first[1] === last[1]) positions.pop();
+      for (const [lon, lat] of positions.reverse()) turned.lonLat.push(lon, lat);
+      turned.rings.push(turned.lonLat.length / 2);
+    }
+    turned.cells.push(turned.rings.length - 1);
   }
-  turned.cells = features.map((polygon) => polygons[polygon]);
   return turned;
 }
 
