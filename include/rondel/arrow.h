@@ -60,8 +60,8 @@ namespace rondel {
 /// without further dimensions, which are left out. Element i becomes feature i; one that is null
 /// has no polygons. Rings keep their last position, which is the first one again.
 /// \param schema, array  stay with the caller, who releases them
-/// \throws InvalidInput if the array has another type, or lists that do not fit; or if its type names
-///         another CRS than OGC:CRS84 or EPSG:4326, whose positions are longitudes and latitudes here
+/// \throws InvalidInput if the array has another type, or lists that do not fit; if it or its schema
+///         was released; or if its type names another CRS than OGC:CRS84 or EPSG:4326, whose positions are longitudes and latitudes here
 RONDEL_API LonLatMultiPolygons import_arrow(const ArrowSchema& schema, const ArrowArray& array);
 
 /// Makes an array of the type geoarrow.multipolygon with interleaved positions and the CRS

@@ -37,6 +37,8 @@ class HandMade {
     Field& made = fields_.emplace_back();
     made.schema.format = format;
     made.schema.name = "";
+    made.schema.release = [](ArrowSchema*) {};
+    made.array.release = [](ArrowArray*) {};
     made.array.length = length;
     made.buffers[1] = values;
     made.array.buffers = made.buffers.data();
@@ -99,6 +101,31 @@ TEST(arrow, polygons_go_out_and_come_back) {
   polygons.release(&polygons);
   schema.release(&schema);
   EXPECT_EQ(schema.release, nullptr);
+}
+
+TEST(arrow, what_was_released_is_refused) {
+  LonLatMultiPolygons given;
+  given.offsets = {0, 1};
+  given.rows.offsets = {0, 1};
+  given.rows.rows.offsets = {0, 4};
+  given.rows.rows.values = {{0, 0}, {10, 0}, {0, 10}, {0, 0}};
+  ArrowSchema schema = {};
+  ArrowArray array = {};
+  export_arrow(given, PolygonEdges::lonlat, schema, array);
+  ArrowArray polygons = *array.children[0];  // which a library moves out
+  array.children[0]->release = nullptr;
+  const auto message = [&] {
+    return thrown_message<InvalidInput>([&] { return import_arrow(schema, array); });
+  };
+  EXPECT_EQ(message(), "the array of Arrow was released");
+  polygons.release(&polygons);
+  array.release(&array);
+  EXPECT_EQ(message(), "the array of Arrow was released");
+  schema.release(&schema);
+  EXPECT_EQ(message(), "the array of Arrow was released");
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return import_arrow_geometries(schema, array); }),
+            "the array of Arrow was released");
+  EXPECT_THROW(import_arrow({}, {}), InvalidInput);
 }
 
 TEST(arrow, nothing_is_an_array) {
