@@ -53,7 +53,8 @@ struct HullSize {
 /// Computes volume and area by sums over the faces in doubles. The relative error is near 1e-15 for
 /// a body that is as thick as wide, and larger by their ratio for a thin one. The result is
 /// infinite where it exceeds the range of doubles.
-/// \pre `hull` comes from convex_hull().
+/// \throws InvalidInput for projected sites, or a center outside of the hull: `hull` comes from
+///         convex_hull().
 RONDEL_API HullSize size_of_hull(const Triangulation& hull);
 
 }  // namespace rondel

@@ -5,7 +5,8 @@
 /// The exact predicates on which the triangulation rests, for single calls.
 /// All of them are exact for every finite input, also from 1e-300 to 1e300.
 /// \throws InvalidInput (position of the argument) if a point or the center of the sphere is not
-///         finite, or a point of Model::projected is the center.
+///         finite, or a point of Model::projected is the center; if the squared radius is not
+///         positive and finite, although no answer depends on it.
 #pragma once
 
 #include "rondel/export.h"

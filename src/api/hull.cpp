@@ -15,6 +15,8 @@
 #include "api/validation.h"
 #include "exact/vector.h"
 #include "hidden/inner_point.h"
+#include "predicates/orientation.h"
+#include "rondel/error.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -60,6 +62,22 @@ HullSize sum_of_faces(const Triangulation& hull) {
           std::ldexp(is_flat ? 2 * sums.area : sums.area, 2 * exponent)};
 }
 
+// Throws InvalidInput unless the faces are those of a hull around the center, from which the sums
+// are taken: the center is below each face or in its plane.
+void require_hull(const Triangulation& hull) {
+  if (hull.model() == Model::projected && hull.num_sites() > 0) {
+    throw InvalidInput("the faces of projected sites are no hull; convex_hull() makes one");
+  }
+  const auto points = hull.sites().points();
+  for (const Index f : hull.ghost_faces()) {
+    const auto& [a, b, c] = hull.faces()[f];
+    if (predicates::orientation(points[a], points[b], points[c], hull.sphere().center).sign ==
+        Sign::negative) {
+      throw InvalidInput("the center is outside of the hull; convex_hull() chooses one inside");
+    }
+  }
+}
+
 }  // namespace
 
 Triangulation convex_hull(Sites points, const Execution& execution) {
@@ -82,6 +100,7 @@ Triangulation convex_hull(std::span<const double> xyz, const Execution& executio
 
 HullSize size_of_hull(const Triangulation& hull) {
   const system::ArithmeticScope arithmetic;
+  require_hull(hull);
   return system::apart([&] { return sum_of_faces(hull); });
 }
 

@@ -25,13 +25,17 @@ namespace {
 
 using predicates::FourPoints;
 
-// Throws InvalidInput with the first bad position unless the predicates have an answer: a point or
-// the center is not finite or, for rays, a point is the center.
+// Throws InvalidInput with the first bad position unless the predicates have an answer: there is no
+// such sphere, a point is not finite or, for rays, a point is the center.
 void require_points(std::initializer_list<Point> points, Model model, const Sphere& sphere) {
   const auto is_finite = [](const Point& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   };
   if (!is_finite(sphere.center)) throw InvalidInput("the center of the sphere is not finite");
+  // No answer depends on the radius, but one that cannot be is a mistake of the caller.
+  if (!(sphere.squared_radius > 0) || !std::isfinite(sphere.squared_radius)) {
+    throw InvalidInput("the squared radius of the sphere is not positive and finite");
+  }
   std::size_t i = 0;
   for (const Point& p : points) {
     if (!is_finite(p)) throw InvalidInput("point " + std::to_string(i) + " is not finite", i);

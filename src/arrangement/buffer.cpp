@@ -54,7 +54,7 @@ void validate_line(std::span<const Point> line, std::size_t feature) {
   constexpr double least_distance = 0x1p-45;
   for (std::size_t k = 0; k < line.size(); ++k) {
     if (!(std::abs(norm(line[k]) - 1) <= max_deviation)) {
-      throw InvalidInput("a point of a line is no unit vector", feature);
+      throw InvalidInput("a point is no unit vector", feature);
     }
     if (k > 0 && norm(line[k - 1] + line[k]) < least_distance) {
       throw InvalidInput("neighbors in a line are opposite to each other", feature);

@@ -168,7 +168,8 @@ RONDEL_C_API rondel_status rondel_check(const double* points, size_t n, const ui
                                         size_t m, const rondel_options* options,
                                         const rondel_execution* execution, int32_t* is_valid);
 
-/** Writes volume and surface area of a triangulation that rondel_convex_hull() made. */
+/** Writes volume and surface area of a triangulation that rondel_convex_hull() made.
+ *  RONDEL_INVALID_INPUT: the sites are projected, or the center is outside of their hull. */
 RONDEL_C_API rondel_status rondel_size_of_hull(const rondel_triangulation* hull, double* volume,
                                                double* area);
 

@@ -287,6 +287,25 @@ TEST(c_interface, hull_has_a_size) {
   ASSERT_EQ(rondel_size_of_hull(hull, &volume, &area), RONDEL_OK);
   EXPECT_EQ(volume, 8);
   EXPECT_EQ(area, 24);
+
+  // What is no hull around its center has no size.
+  rondel_options options;
+  rondel_options_init(&options);
+  std::ranges::fill(options.center, 1.0);
+  hull.reset();
+  ASSERT_EQ(rondel_delaunay(cube.data(), 8, &options, nullptr, &hull), RONDEL_OK);
+  EXPECT_EQ(rondel_size_of_hull(hull, &volume, &area), RONDEL_INVALID_INPUT);
+  options.model = RONDEL_WEIGHTED;
+  hull.reset();
+  ASSERT_EQ(rondel_delaunay(cube.data(), 8, &options, nullptr, &hull), RONDEL_OK);
+  ASSERT_EQ(rondel_size_of_hull(hull, &volume, &area), RONDEL_OK);
+  EXPECT_EQ(volume, 8);
+  options.center[0] = 9;
+  hull.reset();
+  ASSERT_EQ(rondel_delaunay(cube.data(), 8, &options, nullptr, &hull), RONDEL_OK);
+  EXPECT_EQ(rondel_size_of_hull(hull, &volume, &area), RONDEL_INVALID_INPUT);
+  EXPECT_STREQ(rondel_error_message(),
+               "the center is outside of the hull; convex_hull() chooses one inside");
 }
 
 TEST(c_interface, changes_are_those_of_cpp) {
@@ -352,6 +371,15 @@ TEST(c_interface, predicates_are_exact) {
   EXPECT_EQ(sign, 0);
   ASSERT_EQ(rondel_side_of_circle(a, b, c, opposite, nullptr, &sign), RONDEL_OK);
   EXPECT_EQ(sign, -1);
+  rondel_options options;
+  rondel_options_init(&options);
+  for (const double radius : {-3.0, 0.0, std::numeric_limits<double>::infinity()}) {
+    options.squared_radius = radius;
+    EXPECT_EQ(rondel_orientation(a, b, c, &options, &sign), RONDEL_INVALID_INPUT);
+    EXPECT_EQ(rondel_side_of_circle(a, b, c, opposite, &options, &sign), RONDEL_INVALID_INPUT);
+    EXPECT_STREQ(rondel_error_message(),
+                 "the squared radius of the sphere is not positive and finite");
+  }
 }
 
 TEST(c_interface, every_failure_is_a_status_with_a_message) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -164,7 +165,11 @@ TEST_F(CPolygons, go_through_arrays_and_arrow) {
       [&](rondel_features** made) { return rondel_features_import_arrow(&schema, &array, made); });
   expect_same(imported.get(), some_features());
   array.release(&array);
+  rondel_features* none = nullptr;
+  EXPECT_EQ(rondel_features_import_arrow(&schema, &array, &none), RONDEL_INVALID_INPUT);
   schema.release(&schema);
+  EXPECT_EQ(rondel_features_import_arrow(&schema, &array, &none), RONDEL_INVALID_INPUT);
+  EXPECT_STREQ(rondel_error_message(), "the array of Arrow was released");
 }
 
 TEST_F(CPolygons, have_the_set_operations_of_cpp) {
@@ -299,9 +304,59 @@ TEST_F(CPolygons, that_are_not_valid_are_told_and_repaired) {
   expect_same(again.get(), rondel::repaired(expected));
 }
 
+TEST_F(CPolygons, may_have_rings_without_corners) {
+  const std::uint64_t cells[] = {0, 1, 3};
+  const std::uint64_t rings[] = {0, 0, 3, 3};
+  const double corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const auto made = made_by<Polygons>([&](rondel_polygons** polygons) {
+    return rondel_polygons_create(cells, 2, rings, corners, nullptr, 0, polygons);
+  });
+  std::vector<double> sizes = {-1, -1};
+  ASSERT_EQ(rondel_polygon_areas(made.get(), sizes.data()), RONDEL_OK);
+  EXPECT_EQ(sizes[0], 0);
+  EXPECT_NEAR(sizes[1], std::numbers::pi / 2, 1e-15);
+  ASSERT_EQ(rondel_polygon_lengths(made.get(), sizes.data()), RONDEL_OK);
+  EXPECT_EQ(sizes[0], 0);
+  const auto drawn = made_by<Features>([&](rondel_features** features) {
+    return rondel_features_of_polygons(made.get(), 0.01, nullptr, features);
+  });
+  EXPECT_EQ(rondel_feature_polygons(drawn.get())[1], 0U);
+  EXPECT_EQ(rondel_feature_polygons(drawn.get())[2], 1U);
+}
+
+// Polygon 1 has a side that leads to the opposite point: its fourth corner of all is that of its
+// first one.
+TEST_F(CPolygons, are_named_by_what_is_wrong_with_their_sides) {
+  const std::uint64_t cells[] = {0, 1, 2};
+  const std::uint64_t rings[] = {0, 3, 6};
+  const double corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, -1, 0, 0, 0, 1};
+  const auto made = made_by<Polygons>([&](rondel_polygons** polygons) {
+    return rondel_polygons_create(cells, 2, rings, corners, nullptr, 0, polygons);
+  });
+  const auto expect_refused = [&](rondel_status status, const std::string& message) {
+    EXPECT_EQ(status, RONDEL_INVALID_INPUT);
+    EXPECT_EQ(rondel_error_index(), 1U);
+    EXPECT_EQ(std::string(rondel_error_message()).substr(0, message.size()), message);
+  };
+  rondel_triangles* triangles = nullptr;
+  for (const double spacing : {0.0, 20.0}) {
+    expect_refused(rondel_triangulate_polygons(made.get(), spacing, nullptr, &triangles),
+                   "polygon 1 has a side that joins");
+  }
+  std::vector<char> texts(std::size_t{2} * RONDEL_RELATION_SIZE);
+  const std::string side = "polygon 1 of the first operand has a side that leads";
+  expect_refused(rondel_relate(made.get(), made.get(), nullptr, texts.data()), side);
+  const std::uint32_t pair[] = {0, 0};
+  expect_refused(rondel_relate_pairs(made_.get(), made.get(), pair, 1, nullptr, texts.data()),
+                 "polygon 1 of the second operand has a side that leads");
+  rondel_lists* lists = nullptr;
+  expect_refused(rondel_related(made.get(), made_.get(), nullptr, nullptr, &lists), side);
+}
+
 TEST_F(CPolygons, that_do_not_fit_are_refused) {
   const std::uint64_t offsets[] = {0, 1};
   const std::uint64_t three[] = {0, 3};
+  const std::uint64_t empty[] = {0, 0};
   const std::uint64_t falling[] = {0, 3, 2};
   const double corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 2};
   const std::uint32_t whole[] = {0};
@@ -321,6 +376,17 @@ TEST_F(CPolygons, that_do_not_fit_are_refused) {
                  "corner 2 is no unit vector", 2);
   expect_refused(rondel_polygons_create(offsets, 1, three, nullptr, nullptr, 0, &made),
                  "corners is NULL", 0);
+  const std::uint64_t many[] = {0, std::uint64_t{1} << 32};
+  expect_refused(rondel_polygons_create(many, 1, three, corners, nullptr, 0, &made),
+                 "polygons count more than can be", 1);
+  for (const std::uint32_t absent : {1U, UINT32_MAX}) {
+    EXPECT_EQ(rondel_polygons_create(offsets, 1, empty, nullptr, &absent, 1, &made),
+              RONDEL_INVALID_INPUT);
+    EXPECT_NE(std::string(rondel_error_message()).find("is not there"), std::string::npos);
+  }
+  EXPECT_EQ(rondel_buffer_points(corners, 3, 0.1, 0, nullptr, &made), RONDEL_INVALID_INPUT);
+  EXPECT_STREQ(rondel_error_message(), "a point is no unit vector");
+  EXPECT_EQ(rondel_error_index(), 2U);
   expect_refused(rondel_combine(made_.get(), nullptr, 0, nullptr, &made), "b is NULL", 0);
   expect_refused(rondel_combine(made_.get(), made_.get(), 5, nullptr, &made),
                  "the set operation 5 is unknown", 0);
