@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 """The two files of scripts/amalgamate are small, and other compilers that are there take them without a warning; without
-exceptions, or with -ffast-math, each refuses them in one clear line.
+exceptions, or with -ffast-math, each refuses them in one clear line. The script takes no option for a folder.
 
     compilers_test.py FOLDER COMPILER
 """
@@ -11,8 +11,10 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "amalgamate"
 FOLDER = pathlib.Path(sys.argv.pop(1))
 SOURCE = FOLDER / "rondel_all.cpp"
 COMPILER = sys.argv.pop(1)
@@ -57,6 +59,28 @@ class Amalgamation(unittest.TestCase):
 
     def test_is_refused_with_fast_math(self):
         self.expect_refusal("-ffast-math", "error.*Rondel does not compile with -ffast-math")
+
+
+class Script(unittest.TestCase):
+    """What the script does with words that are no folder."""
+
+    def run_script(self, *words):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([SCRIPT, *words], cwd=folder, capture_output=True, text=True, check=False)
+            self.assertEqual(list(pathlib.Path(folder).iterdir()), [])
+            return done
+
+    def test_helps(self):
+        for option in ("--help", "-h"):
+            done = self.run_script(option)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("rondel_all.h", done.stdout)
+
+    def test_refuses_unknown_options(self):
+        for words in (["--hlep"], ["-x"], ["one", "two"]):
+            done = self.run_script(*words)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn("unrecognized arguments", done.stderr)
 
 
 if __name__ == "__main__":
