@@ -5,9 +5,9 @@
 /// Duals of a triangulation: Voronoi diagrams and, in the weighted model,
 /// power (Laguerre) diagrams.
 ///
-/// cells(), areas(), diagram() and centroids() throw InvalidInput if the faces are not Delaunay, as
-/// they may be where arrays were given (Triangulation::from_arrays()) or constraints
-/// (rondel/constrained.h). The other functions take each face or edge by itself.
+/// cells(), areas(), diagram() and centroids() throw InvalidInput for a triangulation with
+/// constraints (rondel/constrained.h) whose faces are not Delaunay. The other functions take each
+/// face or edge by itself.
 #pragma once
 
 #include <array>

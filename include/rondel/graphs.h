@@ -58,7 +58,7 @@ struct SiteGraph {
 /// The expected time is O(n); it is O(n log n) for spanning_tree, and O(n) for relative only if the
 /// density of sites is even.
 /// \param triangulation a triangulation with Model::projected
-/// \throws InvalidInput if the sites are weighted, or the faces not Delaunay.
+/// \throws InvalidInput if the sites are weighted, or constraints have changed faces.
 RONDEL_API SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                                 const Execution& execution = {});
 

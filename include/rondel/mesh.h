@@ -93,7 +93,7 @@ struct MeshOptions {
 /// the spacing, areas to a few ulp of the cells' areas, however small, and the sums of the areas to
 /// 1e-13.
 /// \throws InvalidInput if the model is weighted (the models that use such meshes need Voronoi
-///         cells), the faces are not Delaunay, the hull does not surround the center of the sphere,
+///         cells), constraints have changed faces, the hull does not surround the center of the sphere,
 ///         two sites are in one place, or four on one circle (see MeshOptions), with the site; for a
 ///         radius that is out of range, or a density that is not positive.
 RONDEL_API VoronoiMesh make_mesh(const Triangulation& triangulation,

@@ -36,8 +36,8 @@ RONDEL_API Outline hull_polygon(const Triangulation& triangulation);
 /// Computes the alpha shape: the union of the solid faces whose circumscribed circles have at most
 /// a given radius. Faces with the same circle are taken or left together.
 /// \param radius  radians; compared with the computed radii
-/// \throws InvalidInput if the radius is negative or not a number, the sites are weighted, or the
-///         faces are not Delaunay.
+/// \throws InvalidInput if the radius is negative or not a number, the sites are weighted, or
+///         constraints have changed faces.
 RONDEL_API Outline alpha_shape(const Triangulation& triangulation, double radius,
                                const Execution& execution = {});
 
@@ -62,7 +62,7 @@ enum class CircleCenters : std::uint8_t {
 /// sites on a great circle of which no open half is free of sites: then it has the circles around
 /// the two poles. Each circle touches three sites, so where all sites are in a hemisphere, a circle
 /// that touches only two of them may be larger.
-/// \throws InvalidInput if the sites are weighted, or the faces not Delaunay.
+/// \throws InvalidInput if the sites are weighted, or constraints have changed faces.
 RONDEL_API std::vector<EmptyCircle> largest_empty_circles(
     const Triangulation& triangulation, std::size_t k,
     CircleCenters centers = CircleCenters::inside, const Execution& execution = {});

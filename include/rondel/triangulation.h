@@ -97,9 +97,9 @@ class RONDEL_API Triangulation {
   /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if
   ///         the arrays do not obey 1, 2 and 5: indices in range, a closed surface around every
   ///         vertex, each edge in two faces, duplicates in one place. Whether the faces are
-  ///         Delaunay is tested by check(); what relies on it tests it once, before its first
-  ///         result, and throws InvalidInput: a Locator, an Interpolator, a DynamicTriangulation,
-  ///         cells() and what else of rondel/diagram.h says so, graphs, outlines and meshes.
+  ///         Delaunay is tested by check(); a Locator, an Interpolator and a DynamicTriangulation,
+  ///         which walk through the faces, test it once, when they are made, and throw
+  ///         InvalidInput. Cells, graphs, outlines and meshes are made of the faces as they are.
   static Triangulation from_arrays(Sites sites, const TriangulationParts& parts,
                                    const Options& options = {});
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Diagrams of triangulations: the faces must be Delaunay, or their circumcenters bound no cells.
+// Diagrams of triangulations. The circumcenters of faces that constraints have changed bound no cells.
 
 #include "rondel/diagram.h"
 
@@ -13,13 +13,13 @@ namespace rondel {
 
 Cells cells(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   return dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), nullptr);
 }
 
 Diagram diagram(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   Diagram result;
   result.cells =
       dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), &result.areas);
@@ -32,7 +32,7 @@ std::vector<double> areas(const Triangulation& triangulation, const Execution& e
 
 std::vector<Point> centroids(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   return dual::centroids(triangulation, dual::SplitSites(triangulation, execution.threads));
 }
 

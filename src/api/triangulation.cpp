@@ -44,6 +44,12 @@ void api::require_delaunay(const Triangulation& triangulation, const Execution& 
   impl.proof.store(nullptr, std::memory_order_relaxed);
 }
 
+void api::require_unchanged_faces(const Triangulation& triangulation, const Execution& execution) {
+  if (Triangulation::Impl::of(triangulation).has_constraints) {
+    require_delaunay(triangulation, execution);
+  }
+}
+
 Triangulation::Triangulation(std::shared_ptr<const Impl> impl) noexcept : impl_(std::move(impl)) {}
 
 const Triangulation::Impl& Triangulation::impl() const noexcept {

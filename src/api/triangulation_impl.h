@@ -38,6 +38,8 @@ struct Triangulation::Impl {
   // proof in them.
   using Proof = void (*)(const Triangulation&, const Execution&);
   mutable std::atomic<Proof> proof = nullptr;
+  // Whether edges were asked for, so that faces need not be Delaunay.
+  bool has_constraints = false;
 };
 
 namespace api {
@@ -49,6 +51,11 @@ RONDEL_API Triangulation make_triangulation(Sites sites, TriangulationArrays arr
 // Runs the proof that is missing, once; functions that walk through the faces call it before they
 // do. Throws InvalidInput if the proof fails, and again at the next call.
 RONDEL_API void require_delaunay(const Triangulation& triangulation, const Execution& execution);
+
+// Does the same for a triangulation with constraints. Arrays that were given are taken as Delaunay:
+// the proof takes several times as long as a diagram, or as delaunay() itself.
+RONDEL_API void require_unchanged_faces(const Triangulation& triangulation,
+                                        const Execution& execution);
 
 // Throws InvalidInput if the arrays are not those of the triangulation of their sites.
 RONDEL_API void prove_delaunay(const Triangulation& triangulation, const Execution& execution);

@@ -94,6 +94,7 @@ Triangulation with_faces(const Sites& sites, TriangulationArrays arrays, const O
   const auto impl =
       std::make_shared<Triangulation::Impl>(sites, std::move(arrays), options, report);
   impl->proof = &api::prove_delaunay;
+  impl->has_constraints = true;
   return Triangulation(impl);
 }
 

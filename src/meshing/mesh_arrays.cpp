@@ -299,7 +299,7 @@ VoronoiMesh make_mesh(const Triangulation& triangulation, const MeshOptions& opt
                       const Execution& execution) {
   const system::Call call(execution);
   require_mesh(triangulation, options);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   return MeshMaker(triangulation, options, execution).make();
 }
 

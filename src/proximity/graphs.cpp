@@ -192,7 +192,7 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("weighted sites have no graphs of distances");
   }
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   const SiteDistances distances(triangulation, execution);
   std::vector<NearPair> candidates = triangulation.dimension() < 2
                                          ? ring_candidates(triangulation, distances)

@@ -143,7 +143,7 @@ Outline hull_polygon(const Triangulation& triangulation) {
 Outline alpha_shape(const Triangulation& triangulation, double radius, const Execution& execution) {
   const system::Call call(execution);
   require_no_weights(triangulation);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   if (!(radius >= 0)) throw InvalidInput("the radius is negative or not a number");
   const proximity::FaceCircles circles = proximity::face_circles(triangulation, execution);
   std::vector<std::uint8_t> is_in(triangulation.num_faces());
@@ -190,7 +190,7 @@ std::vector<EmptyCircle> largest_empty_circles(const Triangulation& triangulatio
                                                CircleCenters centers, const Execution& execution) {
   const system::Call call(execution);
   require_no_weights(triangulation);
-  api::require_delaunay(triangulation, execution);
+  api::require_unchanged_faces(triangulation, execution);
   std::vector<EmptyCircle> found;
   if (triangulation.dimension() < 2) {
     return centers == CircleCenters::anywhere ? polar_circles(triangulation, k) : found;
