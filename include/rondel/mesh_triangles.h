@@ -87,7 +87,8 @@ struct DomainTriangles {
 ///         lines), simplified(), constrained_delaunay() and refine(); if polygons of the coast or
 ///         the area cross themselves such that nothing is on one side; if `fill_narrow` or
 ///         `smallest_part` is not from 0 to 1, or narrow water has no spacing to be compared with;
-///         and if nothing is left
+///         if the spacing asks for more nodes than RefineOptions::most_vertices, before any is made;
+///         and if nothing is left, or of the area nothing after its simplification
 RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options = {},
                                      const Execution& execution = {});
 

@@ -6,11 +6,16 @@
 // the mesh follow.
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <numbers>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "exact/point_order.h"
+#include "exact/vector.h"
 #include "map/ring_area.h"
 #include "meshing/coarse_refine.h"
 #include "meshing/narrow_water.h"
@@ -98,6 +103,32 @@ void sort(DomainTriangles& made, unsigned threads) {
   mesh.sources.clear();
 }
 
+// Returns how many nodes of an equilateral mesh with these spacings a triangle has, the integral of
+// 1 / (sqrt(3)/2 spacing^2): by its halves where it is longer than 200 km on the Earth, so that a
+// spacing that changes is looked at in many places.
+double number_of_nodes(const std::array<Point, 3>& triangle, const SizeFunction& spacing) {
+  constexpr double longest = 1.0 / 32;
+  std::size_t apex = 0;  // opposite to the longest edge
+  double length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const exact::Vector3<double> edge =
+        exact::to_vector(triangle[(k + 2) % 3]) - exact::to_vector(triangle[(k + 1) % 3]);
+    if (norm(edge) > length) std::tie(length, apex) = std::pair(norm(edge), k);
+  }
+  const Point& a = triangle[apex];
+  const Point& b = triangle[(apex + 1) % 3];
+  const Point& c = triangle[(apex + 2) % 3];
+  const exact::Vector3<double> middle = exact::to_vector(b) + exact::to_vector(c);
+  if (length <= longest) {
+    const double wanted = spacing.spacing(exact::to_point(middle + exact::to_vector(a)));
+    const auto edge = [&](const Point& p) { return exact::to_vector(p) - exact::to_vector(a); };
+    // Half of the cross product is the area between chords, which no rounding makes negative.
+    return norm(cross(edge(b), edge(c))) / (std::numbers::sqrt3 * wanted * wanted);
+  }
+  const Point half = exact::to_point(normalized(middle));
+  return number_of_nodes({a, b, half}, spacing) + number_of_nodes({a, half, c}, spacing);
+}
+
 class TrianglesOfDomain {
  public:
   TrianglesOfDomain(const TrianglesOptions& options, const Execution& execution)
@@ -106,7 +137,9 @@ class TrianglesOfDomain {
   DomainTriangles run(const MeshDomain& domain) {
     take(domain);
     simplify();
+    require_area();
     triangulate();
+    require_possible_number();
     const double filled_area = options_.fill_narrow > 0 ? fill_narrow() : 0;
     const std::size_t num_small_parts = options_.smallest_part > 0 ? leave_small_parts_out() : 0;
     DomainTriangles made = refined(options_.refine);
@@ -155,6 +188,35 @@ class TrianglesOfDomain {
     };
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
+  }
+
+  // Throws InvalidInput if the simplification has left nothing of the area.
+  void require_area() const {
+    if (is_everywhere_ || all_.polygons.cells[end_of_coast_] != all_.polygons.cells[end_of_area_]) {
+      return;
+    }
+    throw InvalidInput("nothing is left for triangles: the area is nowhere wider than " +
+                       (options_.tolerance
+                            ? std::string("the tolerance with which it is simplified")
+                            : std::string("a quarter of the spacing, with which it is simplified "
+                                          "unless there is a tolerance")));
+  }
+
+  // Throws InvalidInput if the spacing asks for more nodes than a mesh may have.
+  void require_possible_number() const {
+    const std::optional<SizeFunction>& spacing = options_.refine.spacing;
+    if (!spacing) return;
+    double number = 0;
+    for (Index f = 0; f < regions_.size(); ++f) {
+      if (regions_[f] != no_index) number += number_of_nodes(corners_of(f), *spacing);
+    }
+    const auto most = static_cast<double>(options_.refine.most_vertices);
+    if (!(number > most)) return;
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "the spacing asks for about %.2g nodes, more than the %.0f that a mesh may have",
+                  number, most);
+    throw InvalidInput(text.data());
   }
 
   [[noreturn]] static void refuse_land() {
@@ -262,11 +324,12 @@ class TrianglesOfDomain {
     return area - area_of_mesh();
   }
 
-  [[nodiscard]] double area_of(Index face) const {
+  [[nodiscard]] std::array<Point, 3> corners_of(Index face) const {
     const std::span<const Point> points = triangulation_.triangulation.sites().points();
     const auto& [a, b, c] = triangulation_.triangulation.faces()[face];
-    return map::area_on_left(std::array<Point, 3>{points[a], points[b], points[c]});
+    return {points[a], points[b], points[c]};
   }
+  [[nodiscard]] double area_of(Index face) const { return map::area_on_left(corners_of(face)); }
   [[nodiscard]] double area_of_mesh() const {
     double area = 0;
     for (Index f = 0; f < regions_.size(); ++f) {

@@ -439,6 +439,57 @@ TEST(domain_triangles, nothing_is_left) {
             "nothing is left for triangles: the land covers the area");
 }
 
+TEST(domain_triangles, areas_that_the_simplification_removes) {
+  const MeshDomain domain = {{}, {polygon({box(0, 0, 1, 0.1)})}, {}};
+  TrianglesOptions options = spaced(20);
+  const auto message = [&](const MeshDomain& given) {
+    return thrown_message<InvalidInput>([&] { return triangles(given, options); });
+  };
+  EXPECT_EQ(message(domain), "");
+  options.tolerance = 0.25;
+  EXPECT_EQ(
+      message(domain),
+      "nothing is left for triangles: the area is nowhere wider than the tolerance with which "
+      "it is simplified");
+  options.tolerance.reset();
+  const std::string by_spacing =
+      "nothing is left for triangles: the area is nowhere wider than a quarter of the spacing, "
+      "with "
+      "which it is simplified unless there is a tolerance";
+  EXPECT_EQ(message(domain), by_spacing);
+  // Neither coasts that are left nor another small part change that.
+  EXPECT_EQ(message({{polygon({box(60, 0, 150, 60)})}, {domain.area[0], domain.area[0]}, {}}),
+            by_spacing);
+  // Where a part of the area is left, that one is filled.
+  EXPECT_EQ(message({{}, {domain.area[0], polygon({box(60, 0, 150, 60)})}, {}}), "");
+}
+
+TEST(domain_triangles, spacings_that_ask_for_too_many_nodes) {
+  // The estimate is near the number of nodes, and more than allowed are refused before the work.
+  const auto number = [](const MeshDomain& domain, TrianglesOptions options, double least) {
+    const std::size_t nodes = triangles(domain, options).mesh.nodes.size();
+    options.refine.most_vertices = static_cast<std::size_t>(least * static_cast<double>(nodes));
+    EXPECT_NE(thrown_message<InvalidInput>([&] {
+                return triangles(domain, options);
+              }).find("the spacing asks for about "),
+              std::string::npos);
+    return nodes;
+  };
+  EXPECT_GT(number({{}, {polygon({box(0, 40, 30, 60)})}, {}}, spaced(1), 0.4), 400U);
+  EXPECT_GT(number({}, spaced(4), 0.4), 2000U);
+  const auto message = [](const MeshDomain& domain, double degrees) {
+    return thrown_message<InvalidInput>([&] { return triangles(domain, spaced(degrees)); });
+  };
+  EXPECT_EQ(
+      message({{}, {polygon({box(0, 0, 10, 10)})}, {}}, 1e-6),
+      "the spacing asks for about 1.2e+14 nodes, more than the 715827882 that a mesh may have");
+  EXPECT_EQ(
+      message({}, 1e-3),
+      "the spacing asks for about 4.8e+10 nodes, more than the 715827882 that a mesh may have");
+  // A small area may have a spacing that the sphere could not have.
+  EXPECT_EQ(message({{}, {polygon({box(0, 0, 0.01, 0.01)})}, {}}, 1e-3), "");
+}
+
 TEST(domain_triangles, names_of_features) {
   EXPECT_EQ(name_of(FeatureOfEdge::coast), "coast");
   EXPECT_EQ(name_of(static_cast<FeatureOfEdge>(4)), "");
