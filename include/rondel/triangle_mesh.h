@@ -99,8 +99,8 @@ RONDEL_API std::vector<BoundarySegment> boundary_segments(
 /// triangle are left out; the others keep their order.
 /// \param positions  the points in degrees, or empty
 /// \param coast  as for boundary_segments(), indices of `points`
-/// \throws InvalidInput as boundary_segments() and require_valid() do, and if `positions` are not as
-///         many as the points
+/// \throws InvalidInput as boundary_segments() and require_valid() do; if `positions` are not as
+///         many as the points; and (the position of the edge) if an edge of `coast` has no such point
 RONDEL_API TriangleMesh
 triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
               std::span<const Triple> triangles,

@@ -263,7 +263,13 @@ TriangleMesh triangle_mesh(std::span<const Point> points, std::span<const LonLat
   require_valid(mesh);
   std::vector<std::array<Index, 2>> kept;
   for (const auto& [a, b] : coast.value_or(std::span<const std::array<Index, 2>>())) {
-    if (std::max(a, b) < points.size()) kept.push_back({numbers[a], numbers[b]});
+    if (std::max(a, b) >= points.size()) {
+      throw InvalidInput("coast " + std::to_string(kept.size()) + " has the node " +
+                             std::to_string(std::max(a, b)) + ", and there are " +
+                             std::to_string(points.size()) + " points",
+                         kept.size());
+    }
+    kept.push_back({numbers[a], numbers[b]});
   }
   const auto of_mesh =
       coast ? std::optional<std::span<const std::array<Index, 2>>>(kept) : std::nullopt;

@@ -8,6 +8,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -23,6 +24,7 @@
 #include "module.h"
 #include "named.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
 #include "rondel/triangle_files.h"
 
@@ -51,6 +53,27 @@ void set_segments(TriangleMesh& mesh, const std::vector<SegmentIn>& segments) {
   }
 }
 
+// Throws InvalidInput (the position of the pair) for a coast that is not an edge of one triangle only.
+void require_border(std::span<const Triple> triangles,
+                    std::span<const std::array<Index, 2>> coast) {
+  std::vector<std::array<Index, 2>> edges;
+  for (const auto& [a, b, c] : triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
+  std::ranges::sort(edges);
+  const auto has = [&](Index a, Index b) {
+    return std::ranges::binary_search(edges, std::array<Index, 2>{a, b});
+  };
+  for (std::size_t i = 0; i < coast.size(); ++i) {
+    const auto& [a, b] = coast[i];
+    if (has(a, b) != has(b, a)) continue;
+    throw InvalidInput(
+        "coast " + std::to_string(i) + " joins the nodes " + std::to_string(a) + " and " +
+            std::to_string(b) +
+            (has(a, b) ? ", which is an edge of two triangles: it is not on the border"
+                       : ", which is not an edge of a triangle"),
+        i);
+  }
+}
+
 // Makes a mesh. Positions are degrees; where there are some, they give the points.
 TriangleMesh mesh_of_triangles(const PointsIn& points, const PairsIn& positions,
                                const TriplesIn& triangles, const std::optional<IndexPairsIn>& coast,
@@ -65,6 +88,7 @@ TriangleMesh mesh_of_triangles(const PointsIn& points, const PairsIn& positions,
   mesh.depths = vector_of<double>(depths);
   mesh.levels = vector_of<double>(levels);
   mesh::require_valid(mesh);
+  if (edges) require_border(rows_of<Triple>(triangles), *edges);
   return mesh;
 }
 
@@ -87,10 +111,10 @@ void write_triangle_file(const TriangleMesh& mesh, const std::string& path,
   });
 }
 
-// Fills a domain with triangles. Returns the mesh, and the number of triangles that are not as wanted
-// because doubles have no place.
+// Fills a domain with triangles; a null area is the sphere. Returns the mesh, and the number of
+// triangles that are not as wanted because doubles have no place.
 std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
-    const Geometries& coast, const Geometries& area, const Geometries& lines,
+    const Geometries& coast, const Geometries* area, const Geometries& lines,
     const NumbersIn& spacings, std::size_t steps, double gradient,
     const std::optional<double>& tolerance, double smallest_angle, double fill_narrow,
     double smallest_part, unsigned threads, const nb::object& listener) {
@@ -102,7 +126,7 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
   options.tolerance = tolerance;
   mesh::MeshDomain domain;
   if (coast.size() > 0) domain.coast.push_back(coast);
-  if (area.size() > 0) domain.area.push_back(area);
+  if (area != nullptr) domain.area.push_back(*area);
   if (lines.size() > 0) domain.lines.push_back(lines);
   return watched(many_sites, threads, listener, [&](const Execution& execution) {
     const mesh::DomainTriangles made = mesh::triangles(domain, options, execution);
@@ -132,7 +156,7 @@ void add_triangle_meshes(nb::module_& module) {
              nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),
              nb::arg("coast").noconvert().none(), nb::arg("depths").noconvert(),
              nb::arg("levels").noconvert());
-  module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area"),
+  module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area").none(),
              nb::arg("lines"), nb::arg("spacings").noconvert(), nb::arg("steps"),
              nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("smallest_angle"),
              nb::arg("fill_narrow"), nb::arg("smallest_part"), nb::arg("threads"),

@@ -72,8 +72,8 @@ class TriangleMesh:
     triangles : array_like of int, shape (m, 3)
         The nodes of each triangle, counterclockwise seen from outside.
     coast : array_like of int, shape (k, 2), optional
-        The edges that are coast; the rest of the border is open water. By default all of it is
-        coast.
+        The edges of the border that are coast, as pairs of nodes; the rest of the border is open
+        water. By default all of it is coast.
     depths : array_like, shape (nodes that are left,), optional
         The depth of the water in metres, positive down.
     levels : array_like, optional
@@ -83,7 +83,8 @@ class TriangleMesh:
     ------
     InvalidInput
         If a triangle is clockwise or has no area, or triangles do not fit together: an edge has
-        three of them, or two in one direction.
+        three of them, or two in one direction; or if a pair of `coast` is not an edge of the
+        border. Its `index` is that of the triangle or the pair.
 
     See Also
     --------
@@ -336,7 +337,8 @@ def triangles(
         Polygons of land, which the mesh leaves out: of shapely, GeoPandas, GeoArrow or GeoJSON.
         Lines are edges of the mesh.
     area : geometries, optional
-        Polygons inside of which the mesh is; by default everywhere.
+        Polygons inside of which the mesh is; by default everywhere. Geometries without a polygon
+        are an error.
     lines : geometries, optional
         Lines and sides of polygons that are edges inside, and points that are nodes.
     spacing : float or callable, optional
@@ -416,8 +418,11 @@ def triangles(
     elif spacing is None:
         raise TypeError("triangles() needs coast, area or spacing")
     steps = raster_steps if callable(spacing) else 1
+    within = parts.pop("area")
     made, too_small = _core.triangles_of_domain(
         **parts,
+        # A missing area is the sphere, and an area without features is none.
+        area=None if area is None else within,
         spacings=raster_of(spacing, steps),
         steps=steps,
         gradient=0.0 if gradient is None else float(gradient),

@@ -24,8 +24,10 @@ def mesh():
     middle = tri.points[solid].mean(axis=1)
     kept = solid[(np.hypot(middle[:, 0] - 0.3, middle[:, 1]) > 0.1) & (middle[:, 2] > 0.5)]
     edges = np.concatenate([kept[:, [0, 1]], kept[:, [1, 2]], kept[:, [2, 0]]])
+    has_reverse = (edges[:, None, ::-1] == edges[None]).all(axis=2).any(axis=1)
     coast = edges[
-        (tri.points[edges].sum(axis=1)[:, 0] < 0) | (tri.points[edges, 2].min(axis=1) > 0.7)
+        ~has_reverse
+        & ((tri.points[edges].sum(axis=1)[:, 0] < 0) | (tri.points[edges, 2].min(axis=1) > 0.7))
     ]
     kept_nodes = len(np.unique(kept))
     return TriangleMesh(tri.lonlat, kept, coast=coast, depths=rng.uniform(1, 5000, kept_nodes))
@@ -85,6 +87,17 @@ def test_wrong_input_is_named(tmp_path):
         TriangleMesh(lonlat, [[0, 1, 3]])
     with pytest.raises(rondel.InvalidInput, match="there are 2 depths for 3 nodes"):
         TriangleMesh(lonlat, [[0, 1, 2]], depths=[1, 2])
+    square, halves = [*lonlat, [1, 1]], [[0, 1, 2], [1, 3, 2]]
+    assert len(TriangleMesh(square, halves, coast=[[1, 0], [2, 0]]).boundary) == 2
+    for pair, text in (
+        ([0, 99], "coast 1 has the node 99, and there are 4 points"),
+        ([2, 1], "coast 1 joins the nodes 2 and 1, which is an edge of two triangles"),
+        ([0, 3], "coast 1 joins the nodes 0 and 3, which is not an edge of a triangle"),
+        ([3, 3], "coast 1 joins the nodes 3 and 3, which is not an edge of a triangle"),
+    ):
+        with pytest.raises(rondel.InvalidInput, match=text) as caught:
+            TriangleMesh(square, halves, coast=[[0, 1], pair])
+        assert caught.value.index == 1
     with pytest.raises(ValueError, match="triangles must have shape"):
         TriangleMesh(lonlat, [0, 1, 2])
     with pytest.raises(OSError, match="unknown ending"):
@@ -159,6 +172,15 @@ def test_what_cannot_be_filled():
     sea = shapely.box(0, 0, 10, 10)
     with pytest.raises(ValueError, match="the land covers the area"):
         rondel.mesh.triangles(sea, area=sea)
+    none = ([], {"type": "FeatureCollection", "features": []}, [None], shapely.Polygon())
+    for area in (*none, shapely.LineString([(0, 0), (1, 1)])):
+        with pytest.raises(ValueError, match="the area has no polygon"):
+            rondel.mesh.triangles(area=area, spacing=0.1)
+    assert len(rondel.mesh.triangles([], lines=[], spacing=0.5).boundary) == 0
+    with pytest.raises(ValueError, match=r"asks for about .* nodes, more than the 715827882"):
+        rondel.mesh.triangles(area=sea, spacing=1e-8)
+    with pytest.raises(ValueError, match="the area is nowhere wider than a quarter of the spacing"):
+        rondel.mesh.triangles(area=sea, spacing=3)
     with pytest.raises(ValueError, match="not between 0 and pi"):
         rondel.mesh.triangles(sea, spacing=-1)
     with pytest.raises(ValueError, match="from 0 to 33 degrees, not 40"):
