@@ -85,7 +85,14 @@ std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<con
   const bool is_up = options.depth.empty();
   const auto [file, name] = split_at_colon(is_up ? options.elevation : options.depth);
   std::vector<std::string> remarks;
-  std::vector<double> depths = mesh::read_heights({file, {}}, name, nodes, execution, &remarks);
+  std::vector<double> depths =
+      mesh::read_heights({file, {}}, name, is_up ? mesh::Positive::up : mesh::Positive::down, nodes,
+                         execution, &remarks);
+  const auto is_other = [&](double value) { return is_up ? value > 0 : value < 0; };
+  if (!depths.empty() && std::ranges::all_of(depths, is_other)) {
+    remarks.emplace_back(is_up ? "--elevation: all nodes are above the sea; --depth reads depths"
+                               : "--depth: all depths are negative; --elevation reads heights");
+  }
   tell(file, remarks);
   if (is_up) {
     for (double& depth : depths) depth = depth == 0 ? 0 : -depth;

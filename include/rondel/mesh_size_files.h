@@ -6,6 +6,7 @@
 /// line that names the file.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,14 +49,19 @@ RONDEL_API SizeFunction read_density(const FileName& file, const std::string& na
                                      const Execution& execution = {},
                                      std::vector<std::string>* remarks = nullptr);
 
+/// The direction in which the numbers of heights, or depths, grow (CF's attribute `positive`).
+enum class Positive : std::uint8_t { up, down };
+
 /// Reads heights or depths as read_spacings() reads spacings, and interpolates them linearly at
 /// nodes. Outside of the places the value of the nearest one counts, and a remark says how many nodes
 /// are there.
+/// \param positive  up for heights, down for depths. Where the attribute `positive`, or else the
+///                  `standard_name`, says otherwise, the file is refused
 /// \param nodes  unit vectors
 /// \return metres, positive as in the file. Values are metres, unless the attribute `units` says
 ///         kilometers; other units are refused.
 RONDEL_API std::vector<double> read_heights(const FileName& file, const std::string& name,
-                                            std::span<const Point> nodes,
+                                            Positive positive, std::span<const Point> nodes,
                                             const Execution& execution = {},
                                             std::vector<std::string>* remarks = nullptr);
 

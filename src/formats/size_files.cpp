@@ -15,6 +15,7 @@
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/netcdf_cells.h"
+#include "formats/sea_floor.h"
 #include "formats/unplaced_rows.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
@@ -38,7 +39,10 @@ struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
   std::vector<std::size_t> numbers;  // positions in the file
+  std::string variable;              // of netCDF
   std::string units;                 // as the file says, or empty
+  std::string positive;              // the same
+  std::string standard_name;         // the same
   SiteTable table;                   // says where places are in the file; without name for netCDF
 };
 
@@ -138,10 +142,13 @@ Spacings spacings_of_field(const FileName& file, const std::string& name,
     fields.points = cells;
   }
   Spacings result;
+  result.variable = name;
   if (fields.arrays.empty() || fields.points.size() != fields.num_points) return result;
   result.places = std::move(fields.points);
   for (const auto& [attribute, text] : fields.arrays.front().attributes) {
     if (attribute == "units") result.units = text;
+    if (attribute == "positive") result.positive = text;
+    if (attribute == "standard_name") result.standard_name = text;
   }
   result.values = std::move(fields.arrays.front().values);
   return result;
@@ -212,16 +219,23 @@ void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::str
 // for other units.
 double kilometers_of(const FileName& file, const std::string& units, double without_units,
                      const char* what) {
-  const std::string_view text = formats::without_blanks(units);
-  if (text.empty()) return without_units;
-  for (const std::string_view name : {"km", "kilometer", "kilometers", "kilometre", "kilometres"}) {
-    if (text == name) return 1;
-  }
-  for (const std::string_view name : {"m", "meter", "meters", "metre", "metres"}) {
-    if (text == name) return 1e-3;
-  }
+  if (formats::without_blanks(units).empty()) return without_units;
+  if (const auto kilometers = formats::kilometers_of_units(units)) return *kilometers;
   throw FileError(file.path + ": the " + what + " have the units '" + units +
                   "', which are neither kilometers nor meters");
+}
+
+// Throws FileError if the attributes of heights, or depths, say that they are the other way round.
+void require_positive(const FileName& file, const Spacings& heights, Positive wanted) {
+  const auto given = formats::vertical_sense_of(heights.positive, heights.standard_name);
+  if (!given || given->positive == wanted) return;
+  const auto text_of = [](Positive positive) {
+    return positive == Positive::up ? "heights, positive up" : "depths, positive down";
+  };
+  throw FileError(file.path + ": variable " + io::in_quotes(heights.variable) + " has " +
+                  text_of(given->positive) + " (" + given->evidence + "), where " +
+                  text_of(wanted) + ", are wanted: " +
+                  (wanted == Positive::down ? "--elevation reads it" : "--depth reads it"));
 }
 
 // Values that are linear on the triangulation of their places, and beyond it those of the nearest
@@ -325,10 +339,11 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   return function_of(densities, steps, execution, remarks);
 }
 
-std::vector<double> read_heights(const FileName& file, const std::string& name,
+std::vector<double> read_heights(const FileName& file, const std::string& name, Positive positive,
                                  std::span<const Point> nodes, const Execution& execution,
                                  std::vector<std::string>* remarks) {
   Spacings heights = spacings_of(file, name, execution);
+  require_positive(file, heights, positive);
   drop_missing(file, heights, remarks);
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
   const LinearValues values(heights, execution, remarks);

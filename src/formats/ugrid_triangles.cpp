@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <string>
 
+#include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/mesh_file.h"
 #include "formats/netcdf_cells.h"
 #include "formats/ocean_lines.h"
+#include "formats/sea_floor.h"
 #include "io/bad_value.h"
 #include "io/number.h"
 
@@ -155,30 +157,57 @@ void read_border(const io::NetcdfReader& reader, const std::string& part, MeshIn
   file.has_boundary = count > 0;
 }
 
-// Reads the depths at the nodes, if there are some: CF's, ADCIRC's `depth_below_geoid`, or the
-// altitude of the nodes, as Delft3D FM has it. Returns the name of the variable, or an empty text.
-std::string read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
+// Returns the direction in which a variable of depths or heights of the sea floor is positive; nothing
+// for other variables. The standard_name says it, also in the spellings of ADCIRC's files; or, where
+// there is none, the name.
+std::optional<mesh::Positive> sense_of_sea_floor(const io::VariableInFile& variable) {
+  const std::string name = standard_name_of(io::netcdf_text(variable.attributes, "standard_name"));
+  const bool is_depth = name.starts_with("sea_floor_depth") ||
+                        name.starts_with("model_sea_floor_depth") ||
+                        name.starts_with("depth_below_") || name == "depth";
+  const bool is_height = name == "altitude" || name.starts_with("height_above_geoid") ||
+                         name.starts_with("height_above_mean_sea_level") ||
+                         name.starts_with("sea_floor_altitude");
+  const bool is_named = name.empty() && lower_case(variable.name) == "depth";
+  if (!is_depth && !is_height && !is_named) return std::nullopt;
+  const auto given = vertical_sense_of(io::netcdf_text(variable.attributes, "positive"), name);
+  if (given) return given->positive;
+  return mesh::Positive::down;
+}
+
+// Returns the variable of depths or heights at the nodes, one with a standard_name if there is one;
+// null if there is none.
+const io::VariableInFile* find_depths(const io::NetcdfReader& reader, std::size_t num_nodes) {
+  const io::VariableInFile* found = nullptr;
   for (const io::VariableInFile& variable : reader.variables()) {
-    const std::string name = io::netcdf_text(variable.attributes, "standard_name");
-    const bool is_at_nodes =
-        variable.shape.size() == 1 && variable.num_values == file.mesh.positions.size();
-    const bool is_altitude = name == "altitude";
-    const bool is_depth = name.starts_with("sea_floor_depth_below") || name == "depth_below_geoid";
-    if (!is_at_nodes || !(is_depth || is_altitude)) continue;
-    const std::string units = io::netcdf_text(variable.attributes, "units");
-    const bool is_metres =
-        std::ranges::count(
-            std::array<std::string_view, 6>{"", "m", "meter", "meters", "metre", "metres"},
-            std::string_view(units)) > 0;
-    if (!is_metres) {
-      throw BadValue("variable " + io::in_quotes(variable.name) + " has the units " +
-                     io::in_quotes(units) + ", where metres are needed");
+    const bool is_at_nodes = variable.shape.size() == 1 && variable.num_values == num_nodes;
+    if (!is_at_nodes || variable.type == io::NetcdfType::text || !sense_of_sea_floor(variable)) {
+      continue;
     }
-    file.mesh.depths = meant_numbers(reader, variable);
-    for (double& depth : file.mesh.depths) depth = is_altitude ? 0 - depth : depth;
-    return variable.name;
+    if (!io::netcdf_text(variable.attributes, "standard_name").empty()) return &variable;
+    if (found == nullptr) found = &variable;
   }
-  return {};
+  return found;
+}
+
+// Reads the depths at the nodes, if there are some: CF's, ADCIRC's, or the altitude of the nodes, as
+// Delft3D FM has it. Returns the name of the variable, or an empty text.
+std::string read_depths(const io::NetcdfReader& reader, MeshInFile& file) {
+  const io::VariableInFile* const variable = find_depths(reader, file.mesh.positions.size());
+  if (variable == nullptr) return {};
+  const std::string units = io::netcdf_text(variable->attributes, "units");
+  const auto kilometers = without_blanks(units).empty() ? 1e-3 : kilometers_of_units(units);
+  if (!kilometers) {
+    throw BadValue("variable " + io::in_quotes(variable->name) + " has the units " +
+                   io::in_quotes(units) + ", which are neither meters nor kilometers");
+  }
+  const bool is_up = sense_of_sea_floor(*variable) == mesh::Positive::up;
+  file.mesh.depths = meant_numbers(reader, *variable);
+  for (double& depth : file.mesh.depths) {
+    depth *= *kilometers * 1000;
+    if (is_up) depth = 0 - depth;
+  }
+  return variable->name;
 }
 
 }  // namespace

@@ -154,7 +154,8 @@ void test_files(std::string_view bytes) {
     } catch (const InvalidInput&) {
     }
     try {
-      (void)mesh::read_heights(path, "h", mesh::SizeFunction::nodes(1), {.threads = 1});
+      (void)mesh::read_heights(path, "h", mesh::Positive::up, mesh::SizeFunction::nodes(1),
+                               {.threads = 1});
     } catch (const FileError&) {
     } catch (const InvalidInput&) {
     }

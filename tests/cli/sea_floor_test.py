@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Depths and heights of the sea floor in netCDF files: their direction, names and units.
+
+Without netCDF4-python ctest says "Skipped".
+"""
+
+import importlib.util
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if importlib.util.find_spec("netCDF4") is None:
+    sys.exit(77)
+import netCDF4
+import numpy as np
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+BOX = {"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [10, 8], [0, 8], [0, 0]]]}
+
+
+class Files(unittest.TestCase):
+    """A folder with a box in which a mesh is, and the tool in it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        (self.folder / "box.geojson").write_text(json.dumps(BOX))
+
+    def run_tool(self, *arguments):
+        done = subprocess.run([TOOL, *arguments], cwd=self.folder, text=True, capture_output=True, check=False)
+        return done.returncode, done.stderr
+
+    def depths_in(self, name):
+        """The depths of a file of ADCIRC."""
+        lines = (self.folder / name).read_text().splitlines()
+        return [float(line.split()[3]) for line in lines[2:2 + int(lines[1].split()[1])]]
+
+    def grid(self, name, value, lon=(-5.0, 15.0), lat=(-5.0, 15.0), **attributes):
+        """A file with a value that is the same everywhere, or `values` on the axes."""
+        with netCDF4.Dataset(self.folder / name, "w", format="NETCDF3_CLASSIC") as data:
+            for axis, values, unit in (("lon", lon, "degrees_east"), ("lat", lat, "degrees_north")):
+                data.createDimension(axis, len(values))
+                variable = data.createVariable(axis, "f8", (axis,))
+                variable.units = unit
+                variable[:] = values
+            variable = data.createVariable("v", "f8", ("lat", "lon"))
+            variable.setncatts(attributes)
+            variable[:] = value
+
+
+class DirectionsOfHeights(Files):
+    def mesh(self, option, name="f.nc:v"):
+        return self.run_tool("mesh", "triangles", "--area", "box.geojson", "--spacing", "300", option, name,
+                             "-o", "d.14", "--quiet")
+
+    def test_are_what_the_attributes_say(self):
+        up = ({"positive": "up"}, {"standard_name": "height_above_mean_sea_level"}, {"standard_name": "altitude"},
+              {"standard_name": "surface_altitude"}, {"standard_name": "Height above Geoid"},
+              {"positive": "Up", "standard_name": "sea_floor_depth_below_geoid"})
+        down = ({"positive": "down"}, {"standard_name": "sea_floor_depth_below_geoid"}, {"standard_name": "depth"},
+                {"standard_name": "depth below geoid"}, {"positive": "down", "standard_name": "altitude"})
+        for cases, value, right, wrong in ((up, -100, "--elevation", "--depth"), (down, 100, "--depth", "--elevation")):
+            for attributes in cases:
+                with self.subTest(**attributes):
+                    self.grid("f.nc", value, units="m", **attributes)
+                    self.assertEqual(self.mesh(right), (0, ""))
+                    self.assertEqual(set(self.depths_in("d.14")), {100})
+                    (self.folder / "d.14").unlink()
+                    status, text = self.mesh(wrong)
+                    self.assertEqual(status, 1)
+                    self.assertIn('rondel: f.nc: variable "v" has ', text)
+                    self.assertIn(f": {right} reads it\n", text)
+                    self.assertFalse((self.folder / "d.14").exists())
+
+    def test_of_numbers_are_told_where_no_attribute_has_them(self):
+        self.grid("f.nc", -100, units="m")
+        self.assertEqual(self.mesh("--elevation"), (0, ""))
+        self.assertEqual(self.mesh("--depth"),
+                         (0, "rondel: f.nc: --depth: all depths are negative; --elevation reads heights\n"))
+        self.grid("f.nc", 100, units="m")
+        self.assertEqual(self.mesh("--depth"), (0, ""))
+        self.assertEqual(self.mesh("--elevation"),
+                         (0, "rondel: f.nc: --elevation: all nodes are above the sea; --depth reads depths\n"))
+        (self.folder / "f.csv").write_text("lon,lat,z\n-5,-5,-9\n15,-5,-9\n15,15,-9\n-5,15,-9\n")
+        self.assertIn("all depths are negative", self.mesh("--depth", "f.csv:z")[1])
+
+    def test_units_are_in_letters_of_either_case(self):
+        for units, metres in (("M", 1), ("Meters", 1), ("METRE", 1), ("KM", 1000), ("Kilometers", 1000), (" km ", 1000)):
+            self.grid("f.nc", 2, units=units)
+            self.assertEqual(self.mesh("--depth"), (0, ""))
+            self.assertEqual(set(self.depths_in("d.14")), {2 * metres}, units)
+        for units in ("fathom", "mm", "m2", "k m"):
+            self.grid("f.nc", 2, units=units)
+            self.assertIn("neither kilometers nor meters", self.mesh("--depth")[1], units)
+
+
+class DepthsOfMeshes(Files):
+    def mesh(self, name="depth", values=(7, 8, 9, 10), **attributes):
+        """Writes m.nc, converts it, and returns its depths and what is told."""
+        with netCDF4.Dataset(self.folder / "m.nc", "w", format="NETCDF3_CLASSIC") as data:
+            for dimension, size in (("node", 4), ("face", 2), ("three", 3)):
+                data.createDimension(dimension, size)
+            topology = data.createVariable("adcirc_mesh", "i4", ())
+            topology.setncatts({"cf_role": "mesh_topology", "topology_dimension": 2, "node_coordinates": "x y",
+                                "face_node_connectivity": "element"})
+            for axis, values_of_axis, kind in (("x", [0, 1, 0, 1], "longitude"), ("y", [0, 0, 1, 1], "latitude")):
+                variable = data.createVariable(axis, "f8", ("node",))
+                variable.setncatts({"standard_name": kind, "units": "degrees_" + ("east" if axis == "x" else "north")})
+                variable[:] = values_of_axis
+            element = data.createVariable("element", "i4", ("face", "three"))
+            element.start_index = 1
+            element[:] = [[1, 2, 3], [2, 4, 3]]
+            variable = data.createVariable(name, "f8", ("node",))
+            variable.setncatts({"mesh": "adcirc_mesh", "location": "node", **attributes})
+            variable[:] = values
+        status, told = self.run_tool("mesh", "convert", "m.nc", "-o", "m.14", "--quiet")
+        self.assertEqual(status, 0, told)
+        return self.depths_in("m.14"), told
+
+    def test_have_the_names_of_models(self):
+        names = ("depth below geoid", "depth_below_geoid", "sea_floor_depth", "sea_floor_depth_below_geoid",
+                 "model_sea_floor_depth_below_geoid", "Depth below geoid ", "depth")
+        for name in names:
+            self.assertEqual(self.mesh("h", standard_name=name, units="m"), ([7, 8, 9, 10], ""), name)
+        self.assertEqual(self.mesh(long_name="distance below geoid", units="m"), ([7, 8, 9, 10], ""))
+        self.assertEqual(self.mesh("Depth"), ([7, 8, 9, 10], ""))
+        for name in ("altitude", "height_above_geoid", "height above mean sea level"):
+            self.assertEqual(self.mesh("z", standard_name=name, units="m"), ([-7, -8, -9, -10], ""), name)
+        self.assertEqual(self.mesh(positive="up", units="m"), ([-7, -8, -9, -10], ""))
+        self.assertEqual(self.mesh(units="KM"), ([7000, 8000, 9000, 10000], ""))
+
+    def test_are_no_other_fields(self):
+        for name, attributes in (("zeta", {"standard_name": "sea_surface_height_above_geoid"}),
+                                 ("depth", {"standard_name": "ocean_mixed_layer_thickness"}),
+                                 ("h", {"long_name": "depth"}), ("mld", {"standard_name": "mixed_layer_depth"})):
+            depths, told = self.mesh(name, **attributes)
+            self.assertEqual(depths, [0, 0, 0, 0], name)
+            self.assertIn(name, told)
+
+
+if __name__ == "__main__":
+    unittest.main()
