@@ -119,6 +119,14 @@ def _require_positive(value: float, name: str) -> None:
         raise ValueError(f"{name} must be positive and finite, not {value}")
 
 
+def slope_of(gradient: float | None) -> float:
+    """The gradient; 0 where there is no limit."""
+    if gradient is None:
+        return 0.0
+    _require_positive(float(gradient), "gradient")
+    return float(gradient)
+
+
 def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
     """The spacings at the nodes of the raster; empty where all are the same and not given."""
     if spacing is None:
@@ -175,7 +183,7 @@ def scvt_points(
     _require_positive(largest_tolerance, "largest_tolerance")
     steps = _whole(raster_steps, "raster_steps") if callable(spacing) else 1
     spacings = raster_of(spacing, steps)
-    slope = 0.0 if gradient is None else float(gradient)
+    slope = slope_of(gradient)
     places, left_out = fixed_points(fixed, along, edges, count, spacings, steps, slope, threads)
     made, densities = _core.make_scvt(
         count=count,

@@ -12,9 +12,9 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_name, as_rows, as_threads, as_vector, frozen
-from ._errors import warn_caller
+from ._errors import InvalidInput, warn_caller
 from ._geometries import Edges, Invalid
-from ._mesh_making import Spacing, raster_of
+from ._mesh_making import Spacing, raster_of, slope_of
 from ._operands import operands
 from ._pickled import arrays_of, with_arrays
 from ._plot_mesh import plot_triangle_mesh
@@ -346,7 +346,7 @@ def triangles(
         that returns n numbers. No edge is longer than 1.5 times the spacing at its ends. By default
         edges are as long as angles allow.
     gradient : float, optional
-        The largest growth of the spacing per distance; by default it is not limited.
+        The largest growth of the spacing per distance, positive; by default it is not limited.
     tolerance : float, optional
         How far coasts, borders and lines of the mesh may be from those given, in radians. They are
         simplified with their topology kept; islands and lakes that are nowhere wider vanish. By
@@ -385,7 +385,8 @@ def triangles(
     Raises
     ------
     ValueError
-        If geometries are not valid, a number is not as described, or nothing is left to fill.
+        If geometries are not valid, a number is not as described, nothing is left to fill, the
+        spacing asks for more nodes than a mesh may have, or a depth is not finite.
 
     See Also
     --------
@@ -425,7 +426,7 @@ def triangles(
         area=None if area is None else within,
         spacings=raster_of(spacing, steps),
         steps=steps,
-        gradient=0.0 if gradient is None else float(gradient),
+        gradient=slope_of(gradient),
         tolerance=None if tolerance is None else float(tolerance),
         smallest_angle=float(smallest_angle),
         fill_narrow=float(fill_narrow),
@@ -441,5 +442,13 @@ def triangles(
     mesh = TriangleMesh._of(made)
     if depths is None:
         return mesh
-    made.depths = as_vector(depths(mesh.points), "depths", len(mesh.points))
+    found = as_vector(depths(mesh.points), "depths", len(mesh.points))
+    for node in np.flatnonzero(~np.isfinite(found))[:1]:
+        lon, lat = mesh.lonlat[node]
+        raise InvalidInput(
+            f"depths are {found[node]} at node {node}, at longitude {lon:.6g}, latitude {lat:.6g}, "
+            "where a finite number is needed",
+            int(node),
+        )
+    made.depths = found
     return mesh

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes of triangles: their borders, and files that come back bit by bit."""
 
+import math
 import pickle
 
 import numpy as np
@@ -187,6 +188,17 @@ def test_what_cannot_be_filled():
         rondel.mesh.triangles(sea, smallest_angle=40)
     with pytest.raises(TypeError, match="coast, area or spacing"):
         rondel.mesh.triangles()
+    for gradient in (-1, 0, math.nan, math.inf):
+        with pytest.raises(ValueError, match="gradient must be positive and finite, not"):
+            rondel.mesh.triangles(sea, spacing=lambda p: 0.5 + 0 * p[:, 0], gradient=gradient)
+        with pytest.raises(ValueError, match="gradient must be positive and finite, not"):
+            rondel.mesh.scvt(spacing=lambda p: 0.5 + 0 * p[:, 0], gradient=gradient)
+    for value in (math.nan, math.inf):
+        with pytest.raises(rondel.InvalidInput, match=f"depths are {value} at node 3") as caught:
+            rondel.mesh.triangles(
+                sea, spacing=0.5, depths=lambda p, v=value: np.where(np.arange(len(p)) < 3, 1, v)
+            )
+        assert caught.value.index == 3
     for depths in (lambda p: p[:3, 0], lambda p: p[:, :1]):
         with pytest.raises(ValueError, match=r"depths must have shape \(\d+,\), not"):
             rondel.mesh.triangles(sea, spacing=0.5, depths=depths)
