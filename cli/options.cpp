@@ -3,7 +3,9 @@
 #include "options.h"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
+#include <string_view>
 
 #include "rondel/named_grids.h"
 #include "rondel/read_cells.h"
@@ -225,7 +227,14 @@ bool is_geojson(const FileName& file) {
   return format == "geojson" || format == "json";
 }
 
-bool may_have_features(const FileName& file) { return is_geojson(file) || is_unnamed_input(file); }
+bool is_of_gdal(const FileName& file) {
+  static constexpr std::array<std::string_view, 4> formats = {"gpkg", "fgb", "shp", "parquet"};
+  return std::ranges::count(formats, format_of(file)) > 0;
+}
+
+bool may_have_features(const FileName& file) {
+  return is_geojson(file) || is_unnamed_input(file) || is_of_gdal(file);
+}
 
 FileName CommonOptions::source_beside(const std::string& other) const {
   return {input, other == "-" && input != "-" ? std::string() : input_format};

@@ -61,6 +61,8 @@ struct CommonOptions {
 
 /// True if a file is GeoJSON by its format or its ending.
 bool is_geojson(const FileName& file);
+/// True if GDAL reads files of this format, which may have sites or features.
+bool is_of_gdal(const FileName& file);
 /// True for the same, and for standard input without a format.
 bool may_have_features(const FileName& file);
 

@@ -85,7 +85,8 @@ Command add_repair_command(CLI::App& tool) {
   auto options = std::make_shared<RepairOptions>();
   CLI::App* parser = tool.add_subcommand("repair", "Make polygons valid");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The features: .geojson, or - for standard input")
+                 "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; or - for\n"
+                 "standard input")
       ->type_name("");
   add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,

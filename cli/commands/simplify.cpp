@@ -99,7 +99,8 @@ Command add_simplify_command(CLI::App& tool) {
   CLI::App* parser =
       tool.add_subcommand("simplify", "Remove corners of lines and polygons within a distance");
   add_input_file(*parser, "INPUT", options->common.input,
-                 "The features: .geojson, or - for standard input")
+                 "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; or - for\n"
+                 "standard input")
       ->type_name("");
   add_polygon_format_option(*parser, options->common);
   add_output_option(*parser, options->common,

@@ -88,8 +88,8 @@ struct FeatureTable {
   CellFacts facts;               ///< with the name of the file, the properties and remarks
 };
 
-/// Reads a .geojson or .json file as read_polygons() does, with points, lines and collections of
-/// them as well. \throws what read_polygons() throws.
+/// Reads a .geojson or .json file as read_polygons() does, or by GDAL .gpkg, .fgb, .shp and .parquet,
+/// with points, lines and collections of them as well. \throws what read_polygons() throws.
 RONDEL_API FeatureTable read_features(const FileName& file, const PolygonOptions& options = {},
                                       const Execution& execution = {});
 

@@ -72,7 +72,7 @@ struct PolygonOptions {
   FeatureChoice is_taken = {};
 };
 
-/// Reads polygons as cells from .geojson or .json; cell i is feature i, whose properties are columns: Polygon, MultiPolygon, and collections of them, in
+/// Reads polygons as cells from .geojson or .json, or by GDAL .gpkg, .fgb, .shp and .parquet; cell i is feature i, whose properties are columns: Polygon, MultiPolygon, and collections of them, in
 /// features or bare. "-" is standard input.
 ///
 /// 1. A feature without a geometry is a cell without rings. A feature that covers the sphere (-180

@@ -76,6 +76,7 @@ void load_reading(system::SymbolLoader& from, Gdal& gdal) {
   from.get(gdal.is_empty, "OGR_G_IsEmpty");
   from.get(gdal.num_parts, "OGR_G_GetGeometryCount");
   from.get(gdal.part, "OGR_G_GetGeometryRef");
+  from.get(gdal.num_points, "OGR_G_GetPointCount");
   from.get(gdal.x, "OGR_G_GetX");
   from.get(gdal.y, "OGR_G_GetY");
   from.get(gdal.is_geographic, "OSRIsGeographic");

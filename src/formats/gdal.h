@@ -79,6 +79,7 @@ struct Gdal {
   int (*is_empty)(GdalHandle);
   int (*num_parts)(GdalHandle);
   GdalHandle (*part)(GdalHandle, int);
+  int (*num_points)(GdalHandle);
   double (*x)(GdalHandle, int);
   double (*y)(GdalHandle, int);
   int (*is_geographic)(GdalHandle);

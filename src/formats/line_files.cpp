@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads lines and points that a mesh follows: lines and outlines of polygons in GeoJSON, or the
-// sites of any other file, each of which is a line of one point.
+// Reads lines and points that a mesh follows: lines and outlines of polygons in GeoJSON and in
+// formats of GDAL, or the sites of any other file, each of which is a line of one point.
 #include <string>
 #include <vector>
 
+#include "formats/sites_gdal.h"
 #include "formats/unplaced_rows.h"
 #include "io/ending.h"
 #include "meshing/feature_outlines.h"
@@ -29,7 +30,7 @@ std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOp
 std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonOptions& options,
                                             const Execution& execution) {
   std::vector<std::vector<Point>> lines;
-  if (io::is_geojson(file)) {
+  if (io::is_geojson(file) || formats::is_read_by_gdal(file)) {
     lines = meshing::outlines_of(read_features(file, options, execution));
   } else {
     const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads the features of GeoJSON: read_polygons() returns the cells, and read_features() also the
+// Reads the features of GeoJSON and of formats that GDAL reads: read_polygons() returns the cells, and read_features() also the
 // lines and points. The rings become cells in overlay/feature_polygons.h; lines are divided here.
 #include "rondel/polygon_files.h"
 
@@ -16,6 +16,7 @@
 
 #include "exact/vector.h"
 #include "formats/feature_tables.h"
+#include "formats/sites_gdal.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/geojson_polygons.h"
@@ -86,7 +87,11 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
   formats::require_tolerance(options);
   const auto faulty =
       options.invalid == InvalidPolygons::error ? io::FaultyRings::error : io::FaultyRings::keep;
-  map::PolygonFeatures features = io::read_polygon_features(file, kinds, faulty);
+  std::string text;  // GeoJSON of a file that GDAL reads
+  const bool is_of_gdal = formats::is_read_by_gdal(file);
+  if (is_of_gdal) text = formats::geojson_of_gdal(file);
+  map::PolygonFeatures features = io::read_polygon_features(
+      is_of_gdal ? FileName::in_memory(text, "geojson", file.path) : file, kinds, faulty);
   for (std::size_t f = 0; options.is_taken && f < features.rings.size(); ++f) {
     if (options.is_taken(f, features.files.front().columns)) continue;
     features.rings[f].clear();
@@ -95,7 +100,7 @@ map::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
   return features;
 }
 
-// Reads the features of .geojson, or the sites of other files.
+// Reads the features of .geojson and of GDAL's formats, or the sites of other files.
 map::PolygonFeatures features_or_sites_of(const FileName& file, const PolygonOptions& options,
                                           std::vector<std::string>& remarks,
                                           const Execution& execution) {
@@ -105,8 +110,9 @@ map::PolygonFeatures features_or_sites_of(const FileName& file, const PolygonOpt
     const FileName named = FileName::in_memory(text, io::format_of_text(text), input.name());
     return features_or_sites_of(named, options, remarks, execution);
   }
-  return io::is_geojson(file) ? features_of(file, io::FeatureKinds::all, options)
-                              : features_of_sites(file, remarks, execution);
+  return io::is_geojson(file) || formats::is_read_by_gdal(file)
+             ? features_of(file, io::FeatureKinds::all, options)
+             : features_of_sites(file, remarks, execution);
 }
 
 // Returns the lines of features as arcs of great circles. Lines that are straight in longitude and

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reads sites by GDAL: read_sites_gdal(). Files with a path are opened by GDAL itself, since a
+// Reads sites and features by GDAL: read_sites_gdal() and geojson_of_gdal(). Files with a path are opened by GDAL itself, since a
 // shapefile has others beside it; what comes from standard input is put into GDAL's memory.
 #include "formats/sites_gdal.h"
 
@@ -22,6 +22,7 @@
 #include "io/column_text.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
+#include "io/geojson_writer.h"
 #include "io/number.h"
 #include "io/site_collector.h"
 #include "rondel/error.h"
@@ -41,7 +42,10 @@ constexpr std::array<SiteFormat, 4> site_formats = {{{".gpkg", "GPKG"},
 
 // Values of GDAL's enumerations.
 constexpr unsigned open_vector = 4, open_with_errors = 64;
-constexpr int point_type = 1, multi_point_type = 4;
+constexpr int point_type = 1, line_string_type = 2, multi_point_type = 4, collection_type = 7;
+constexpr std::array<std::string_view, 8> type_names = {
+    "",           "Point",           "LineString",   "Polygon",
+    "MultiPoint", "MultiLineString", "MultiPolygon", "GeometryCollection"};
 constexpr int integer_field = 0, real_field = 2, long_field = 12;
 constexpr int failure = 3;
 
@@ -89,6 +93,8 @@ class SiteSource {
 
   // Reads the sites and, if they are kept, the columns. Throws BadValue or FileError.
   void read(const io::ReadJob& options, SiteTable& table);
+  // Returns the features as GeoJSON. Throws BadValue or FileError.
+  [[nodiscard]] std::string geojson() const;
 
  private:
   // Throws what GDAL said last.
@@ -105,6 +111,23 @@ class SiteSource {
   void add_cell(GdalHandle feature, int number, Field& field) const;
   // Returns the places of a feature.
   [[nodiscard]] std::vector<LonLat> places_of(GdalHandle feature) const;
+  // Appends a geometry, or its coordinates, as GeoJSON. An empty geometry is null, or no part.
+  void append_geometry(GdalHandle geometry, std::string& text) const;
+  void append_coordinates(GdalHandle geometry, int type, std::string& text) const;
+  // Calls visit() for each feature of a layer with its number. Throws BadValue that says which one.
+  template <class Visit>
+  void for_each_feature(GdalHandle layer, const Visit& visit) const {
+    gdal_.reset_reading(layer);
+    gdal_.reset_error();
+    for (std::uint64_t row = 0;; ++row) {
+      GdalHandle const feature = gdal_.next_feature(layer);
+      if (feature == nullptr) break;
+      const auto destroy = [&](GdalHandle handle) { gdal_.destroy_feature(handle); };
+      const std::unique_ptr<void, decltype(destroy)> owner(feature, destroy);
+      io::at_item("feature", row, [&] { visit(feature, row); });
+    }
+    if (gdal_.last_error_type() >= failure) fail();
+  }
   // Returns the radius in a field. Throws BadValue if it is no number.
   [[nodiscard]] double radius_in(GdalHandle feature, int number, const Field& field) const;
 
@@ -218,6 +241,77 @@ double SiteSource::radius_in(GdalHandle feature, int number, const Field& field)
   return io::parse_number(gdal_.text(feature, number), "radius");
 }
 
+void SiteSource::append_coordinates(GdalHandle geometry, int type, std::string& text) const {
+  const auto append_position = [&](int i) {
+    text += '[';
+    io::append_number(text, gdal_.x(geometry, i));
+    text += ',';
+    io::append_number(text, gdal_.y(geometry, i));
+    text += ']';
+  };
+  if (type == point_type) return append_position(0);
+  const bool is_line = type == line_string_type;
+  const int number = is_line ? gdal_.num_points(geometry) : gdal_.num_parts(geometry);
+  bool is_first = true;
+  text += '[';
+  for (int i = 0; i < number; ++i) {
+    GdalHandle const part = is_line ? nullptr : gdal_.part(geometry, i);
+    if (!is_line && gdal_.is_empty(part) != 0) continue;
+    if (!std::exchange(is_first, false)) text += ',';
+    if (is_line) {
+      append_position(i);
+    } else if (type == collection_type) {
+      append_geometry(part, text);
+    } else {
+      append_coordinates(part, gdal_.flat_type(gdal_.geometry_type(part)), text);
+    }
+  }
+  text += ']';
+}
+
+void SiteSource::append_geometry(GdalHandle geometry, std::string& text) const {
+  if (geometry == nullptr || gdal_.is_empty(geometry) != 0) {
+    text += "null";
+    return;
+  }
+  const int type = gdal_.flat_type(gdal_.geometry_type(geometry));
+  if (type < point_type || type > collection_type) {
+    throw io::BadValue("it has curves or surfaces where points, lines or polygons are needed");
+  }
+  text += R"({"type":")";
+  text += type_names[static_cast<std::size_t>(type)];
+  text += type == collection_type ? R"(","geometries":)" : R"(","coordinates":)";
+  append_coordinates(geometry, type, text);
+  text += '}';
+}
+
+std::string SiteSource::geojson() const {
+  GdalHandle const layer = only_layer();
+  require_degrees(layer);
+  std::vector<Field> fields = fields_of(layer);
+  std::vector<std::string> geometries;
+  for_each_feature(layer, [&](GdalHandle feature, std::uint64_t) {
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+      add_cell(feature, static_cast<int>(i), fields[i]);
+    }
+    append_geometry(gdal_.geometry(feature), geometries.emplace_back());
+  });
+  std::vector<Column> columns;
+  for (Field& field : fields) columns.push_back(std::move(field.column));
+  const std::vector<std::string> keys = io::property_keys(columns, {});
+  std::string text = R"({"type":"FeatureCollection","features":[)";
+  for (std::size_t row = 0; row < geometries.size(); ++row) {
+    text +=
+        row == 0 ? R"({"type":"Feature","properties":{)" : R"(,{"type":"Feature","properties":{)";
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      text += i == 0 ? keys[i].substr(1) : keys[i];
+      io::append_value(text, columns[i], row);
+    }
+    text += io::geometry_begin + std::exchange(geometries[row], {}) + '}';
+  }
+  return text + "]}";
+}
+
 void SiteSource::read(const io::ReadJob& options, SiteTable& table) {
   GdalHandle const layer = only_layer();
   require_degrees(layer);
@@ -226,29 +320,20 @@ void SiteSource::read(const io::ReadJob& options, SiteTable& table) {
   const auto total = static_cast<std::size_t>(std::max(0LL, gdal_.num_features(layer, 0)));
   io::SiteCollector collector(table, options);
   collector.reserve(total, true);
-  gdal_.reset_reading(layer);
-  gdal_.reset_error();
-  for (std::uint64_t row = 0;; ++row) {
-    GdalHandle const feature = gdal_.next_feature(layer);
-    if (feature == nullptr) break;
-    const auto destroy = [&](GdalHandle handle) { gdal_.destroy_feature(handle); };
-    const std::unique_ptr<void, decltype(destroy)> owner(feature, destroy);
-    io::at_item("feature", row, [&] {
-      const std::vector<LonLat> places = places_of(feature);
-      if (places.empty()) ++table.num_unlocated;
-      for (const LonLat& place : places) {
-        collector.add_position(place.lon_deg, place.lat_deg, 0);
-        if (radius < fields.size()) {
-          collector.make_circle(radius_in(feature, static_cast<int>(radius), fields[radius]));
-        }
-        for (std::size_t i = 0; i < fields.size() && options.keep_columns; ++i) {
-          add_cell(feature, static_cast<int>(i), fields[i]);
-        }
-        collector.report_progress(row, total);
+  for_each_feature(layer, [&](GdalHandle feature, std::uint64_t row) {
+    const std::vector<LonLat> places = places_of(feature);
+    if (places.empty()) ++table.num_unlocated;
+    for (const LonLat& place : places) {
+      collector.add_position(place.lon_deg, place.lat_deg, 0);
+      if (radius < fields.size()) {
+        collector.make_circle(radius_in(feature, static_cast<int>(radius), fields[radius]));
       }
-    });
-  }
-  if (gdal_.last_error_type() >= failure) fail();
+      for (std::size_t i = 0; i < fields.size() && options.keep_columns; ++i) {
+        add_cell(feature, static_cast<int>(i), fields[i]);
+      }
+      collector.report_progress(row, total);
+    }
+  });
   table.first_line = 0;
   for (Field& field : fields) {
     if (options.keep_columns) table.columns.push_back(std::move(field.column));
@@ -259,6 +344,14 @@ void SiteSource::read(const io::ReadJob& options, SiteTable& table) {
 
 bool is_read_by_gdal(const FileName& file) {
   return io::find_format<SiteFormat>(site_formats, file) != nullptr;
+}
+
+std::string geojson_of_gdal(const FileName& file) {
+  const std::lock_guard lock(gdal_lock());
+  io::FileBytes bytes(file, true);
+  if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
+  const SiteSource source(file, bytes, *io::find_format<SiteFormat>(site_formats, file));
+  return io::in_file(bytes.name(), [&] { return source.geojson(); });
 }
 
 void read_sites_gdal(const FileName& file, const io::ReadJob& options, SiteTable& table) {

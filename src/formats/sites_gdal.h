@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites in files that GDAL reads: GeoPackage (.gpkg), FlatGeobuf (.fgb), shapefile (.shp) and
-// GeoParquet (.parquet).
+// Sites and features in files that GDAL reads: GeoPackage (.gpkg), FlatGeobuf (.fgb), shapefile (.shp)
+// and GeoParquet (.parquet).
 //
-// in    a file with one layer of points, in degrees of longitude and latitude
-// out   a SiteTable, whose columns are the layer's fields
+// in    a file with one layer, in degrees of longitude and latitude
+// out   a SiteTable, whose columns are the layer's fields; or a text of GeoJSON
 #pragma once
+
+#include <string>
 
 #include "io/site_formats.h"
 #include "rondel/io.h"
 
 namespace rondel::formats {
 
-// True if GDAL reads sites from files of this format.
+// True if GDAL reads files of this format.
 bool is_read_by_gdal(const FileName& file);
 
 // Reads every Point and every member of a MultiPoint. Features without a place are left out and
@@ -21,5 +23,11 @@ bool is_read_by_gdal(const FileName& file);
 // driver or the file is not there, if the file has other geometries, several layers or a projected
 // coordinate system, or if a place is not valid. Precondition: is_read_by_gdal(file).
 void read_sites_gdal(const FileName& file, const io::ReadJob& options, SiteTable& table);
+
+// Returns a FeatureCollection in one line with all features of a file, whose numbers are the doubles
+// that the file has. Throws FileError if GDAL, its driver or the file is not there, if the file has
+// curves or surfaces, several layers or a projected coordinate system. Precondition:
+// is_read_by_gdal(file).
+std::string geojson_of_gdal(const FileName& file);
 
 }  // namespace rondel::formats

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells as GeoPackage and FlatGeobuf: what GDAL reads of them is what GeoJSON has. Sites, too, which are also read.
+"""Cells as GeoPackage and FlatGeobuf: what GDAL reads of them is what GeoJSON has. Sites and features, which are also read.
 
 The library is that of pyogrio's wheel; without it ctest says "Skipped".
 """
@@ -11,6 +11,7 @@ import importlib.util
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -297,6 +298,77 @@ class SitesOfGdal(Folder):
                 self.assertEqual([*zip(found.geometry.x, found.geometry.y)], expected)
                 if options:
                     self.assertEqual([*found["radius"]], [float(row["radius"]) for row in rows])
+
+
+class FeaturesOfGdal(Folder):
+    """Lines and polygons, which are read as those of GeoJSON."""
+
+    ENDINGS = ("gpkg", "fgb", "shp")
+
+    def write(self, geometries, endings=ENDINGS, **columns):
+        frame = geopandas.GeoDataFrame(columns, geometry=geometries, crs="EPSG:4326")
+        for ending in endings:
+            frame.to_file(self.folder / f"f.{ending}", engine="pyogrio", **({"SPATIAL_INDEX": "NO"} if ending == "fgb" else {}))
+        features = [{"type": "Feature", "properties": {key: values[i] for key, values in columns.items()},
+                     "geometry": None if geometry is None else shapely.geometry.mapping(geometry)}
+                    for i, geometry in enumerate(geometries)]
+        (self.folder / "f.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+
+    def same(self, *arguments, endings=ENDINGS):
+        """The output of a command whose arguments have {} where a file is named."""
+        found = []
+        for ending in ("geojson", *endings):
+            done = self.run_tool(*[argument.format(f"f.{ending}") for argument in arguments])
+            self.assertEqual((done.returncode, done.stderr), (0, ""), ending)
+            output = arguments[arguments.index("-o") + 1]
+            found.append((self.folder / output).read_bytes())
+        for ending, text in zip(endings, found[1:]):
+            self.assertEqual(text, found[0], ending)
+
+    def test_are_coasts_areas_and_lines(self):
+        shutil.copy(DATA / "land-110m.geojson", self.folder / "f.geojson")
+        frame = geopandas.read_file(self.folder / "f.geojson")
+        for ending in self.ENDINGS:
+            frame.to_file(self.folder / f"f.{ending}", engine="pyogrio")
+        self.same("mesh", "triangles", "--coast", "{}", "--spacing", "800", "-o", "o.14")
+        self.same("triangulate", "{}", "--inside", "-o", "o.14")
+        self.same("mesh", "scvt", "-n", "500", "--fixed", "{}", "-o", "o.csv")
+        self.same("mesh", "triangles", "--area", "{}", "--spacing", "800", "-o", "o.14")
+
+    def test_have_holes_parts_and_columns(self):
+        holes = shapely.box(0, 0, 9, 9) - shapely.box(1, 1, 2, 2) - shapely.box(3, 3, 4.1, 4.7)
+        parts = shapely.MultiPolygon([shapely.box(20, 0, 21, 1), shapely.box(22, 0, 23, 1 / 3)])
+        self.write([holes, parts, None], k=[1, 2, 3], name=["a \"b\"", None, "c"], h=[0.1, 1e300, 2.5], endings=("gpkg", "fgb"))
+        self.same("repair", "{}", "-o", "o.geojson", endings=("gpkg", "fgb"))
+        self.same("simplify", "{}", "--tolerance", "1", "-o", "o.geojson", endings=("gpkg", "fgb"))
+        lines = [shapely.LineString([(0, 0), (170, 5.1), (190, 7)]),
+                 shapely.MultiLineString([[(0, 10), (1, 11)], [(3, 10), (4, 12)]])]
+        for geometries in (lines, [shapely.Point(3, 4.5), shapely.MultiPoint([(5, 6), (7, 8)])]):
+            self.write(geometries, k=[*range(len(geometries))], endings=("gpkg", "fgb"))
+            self.same("buffer", "{}", "--distance", "100", "-o", "o.geojson", endings=("gpkg", "fgb"))
+        everything = shapely.GeometryCollection([lines[0], shapely.Point(1, 2), parts])
+        self.write([everything], k=[1], endings=("gpkg",))
+        self.same("buffer", "{}", "--distance", "100", "-o", "o.geojson", endings=("gpkg",))
+
+    def test_are_known_to_info(self):
+        self.write([shapely.box(0, 0, 9, 9), shapely.LineString([(0, 0), (1, 1)])], k=[1, 2], endings=("gpkg",))
+        for name in ("f.gpkg", "f.geojson"):
+            done = subprocess.run([TOOL, "info", name, "--json"], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                  capture_output=True, check=True)
+            report = json.loads(done.stdout)
+            self.assertEqual((report["features"], report["polygons"], report["lines"]), (2, 1, 1), report)
+
+    def test_that_are_not_valid_are_named(self):
+        bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
+        self.write([shapely.box(5, 5, 6, 6), bow], k=[1, 2])
+        for ending in self.ENDINGS:
+            done = self.run_tool("mesh", "triangles", "--coast", f"f.{ending}", "--spacing", "500", "-o", "o.14")
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, rf"\Arondel: f.{ending}.*feature 1.*\n\Z")
+        frame = geopandas.GeoDataFrame({"k": [1]}, geometry=[bow], crs="EPSG:3857")
+        frame.to_file(self.folder / "p.gpkg", engine="pyogrio")
+        done = self.run_tool("repair", "p.gpkg", "-o", "o.geojson")
+        self.assertIn("is not longitude and latitude in degrees", done.stderr)
 
 
 if __name__ == "__main__":
