@@ -237,14 +237,27 @@ class GmshReader {
     }
   }
 
-  // Gives nodes their depths; those without one are 0 deep.
+  // Gives nodes their depths; those without one are 0 deep, which a remark says.
   void take_depths() {
     if (depths_.empty()) return;
-    file_.mesh.depths.assign(file_.mesh.points.size(), 0);
-    for (std::size_t i = 0; i < depths_.size(); ++i) {
-      at_line(depth_lines_[i],
-              [&] { file_.mesh.depths[nodes_[depths_[i].first]] = depths_[i].second; });
+    const std::size_t num_nodes = file_.mesh.points.size();
+    file_.mesh.depths.assign(num_nodes, 0);
+    std::vector<bool> is_missing(num_nodes);
+    for (const Triple& triangle : file_.mesh.triangles) {
+      for (const Index node : triangle) is_missing[node] = true;
     }
+    for (std::size_t i = 0; i < depths_.size(); ++i) {
+      at_line(depth_lines_[i], [&] {
+        const Index node = nodes_[depths_[i].first];
+        file_.mesh.depths[node] = depths_[i].second;
+        is_missing[node] = false;
+      });
+    }
+    const auto number = std::ranges::count(is_missing, true);
+    if (number == 0) return;
+    file_.remarks.push_back(std::to_string(number) + (number == 1 ? " node has" : " nodes have") +
+                            " no depth in the view of depths, and " +
+                            (number == 1 ? "gets" : "get") + " the depth 0");
   }
 
   // Joins lines that follow each other on a curve to segments.

@@ -208,6 +208,31 @@ TEST(triangle_files, of_gmsh_are_read_with_any_numbers) {
   EXPECT_EQ(remarks.size(), 2U);
 }
 
+TEST(triangle_files, of_gmsh_tell_of_nodes_without_a_depth) {
+  const auto read = [](const std::string& values) {
+    const std::string text =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 -1 0 0\n"
+        "$EndNodes\n$Elements\n1\n1 2 2 1 1 1 2 "
+        "3\n$EndElements\n$NodeData\n1\n\"depth\"\n1\n0\n3\n0\n1\n" +
+        values + "$EndNodeData\n";
+    Remarks remarks;
+    const TriangleMesh mesh = mesh_in(text, "msh", &remarks);
+    std::erase_if(remarks, [](const std::string& remark) {
+      return remark.find("depth") == std::string::npos;
+    });
+    return std::pair(mesh.depths, remarks);
+  };
+  const auto all = read("3\n1 5\n3 7\n2 6\n");
+  EXPECT_EQ(all.first, (std::vector<double>{5, 6, 7}));
+  EXPECT_EQ(all.second, Remarks{});
+  const auto some = read("3\n1 5\n4 8\n1 5.5\n");
+  EXPECT_EQ(some.first, (std::vector<double>{5.5, 0, 0}));
+  EXPECT_EQ(some.second,
+            Remarks{"2 nodes have no depth in the view of depths, and get the depth 0"});
+  EXPECT_EQ(read("2\n1 5\n3 8\n").second,
+            Remarks{"1 node has no depth in the view of depths, and gets the depth 0"});
+}
+
 TEST(triangle_files, appear_complete_or_not_at_all) {
   const TemporaryDirectory folder;
   TriangleMesh mesh = arctic_mesh(10);
