@@ -124,7 +124,8 @@ void require_input(const TriangulateOptions& options) {
                  {{"--constraints", options.constraints}});
   if (options.constraints.empty() && !may_have_features(common.source())) {
     throw UsageError("INPUT: without --constraints '" + common.input +
-                     "' must be a .geojson file, whose lines and polygons are the constraints");
+                     "' must be .geojson or a format of GDAL, whose lines and polygons are the "
+                     "constraints");
   }
   if (!options.constraints.empty()) require_edge_table(options.constraints);
 }
@@ -176,15 +177,18 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
   });
   const std::size_t num_sites = plan.table.sites.size();
   const std::size_t num_added = num_sites - num_given;
-  const std::size_t num_faces = options.is_inside ? inside.size() : triangulation.num_faces();
+  // Files for models have no ghost faces, nor have those of faces in polygons.
+  const bool has_ghosts = !options.is_inside && !is_for_model(options.common);
+  const std::size_t num_ghosts = has_ghosts ? triangulation.num_ghost_faces() : 0;
+  const std::size_t num_solid = triangulation.num_faces() - triangulation.num_ghost_faces();
+  const std::size_t num_faces = options.is_inside ? inside.size() : num_solid + num_ghosts;
   const double seconds = job.seconds().total;
   job.report(nlohmann::ordered_json{{"sites", num_sites},
                                     {"added_sites", num_added},
                                     {"constraints", plan.edges.constraints.size()},
                                     {"edges", result.edges.size()},
                                     {"faces", num_faces},
-                                    {"ghost_faces",
-                                     options.is_inside ? 0 : triangulation.num_ghost_faces()},
+                                    {"ghost_faces", num_ghosts},
                                     {"seconds", seconds}}
                      .dump(2) +
                  '\n',
@@ -204,9 +208,11 @@ Command add_triangulate_command(CLI::App& tool) {
   CLI::App* parser = tool.add_subcommand(
       "triangulate", "Triangulate points, lines and polygons, whose sides are edges");
   const auto has_table = [given = options.get()] { return !given->constraints.empty(); };
-  add_input_options(*parser, options->common,
-                    "The features: .geojson; with --constraints sites: .csv .tsv .xyz .txt .npy\n"
-                    ".geojson, the places of a netCDF file; or - for standard input");
+  add_input_options(
+      *parser, options->common,
+      "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; with\n"
+      "--constraints sites: .csv .tsv .xyz .txt .npy .geojson, the places of a netCDF\n"
+      "file; or - for standard input");
   parser
       ->add_option("--constraints", options->constraints,
                    "The edges between sites: .csv, two columns of indices of sites from 0")
