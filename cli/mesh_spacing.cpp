@@ -53,16 +53,38 @@ void require_possible_count(const std::string& what, const mesh::SizeFunction& s
   throw FileError(what + text.data());
 }
 
+// The most steps of a raster, of up to 7 km.
+constexpr std::size_t most_steps = 2048;
+
 // Chooses the raster such that in the middle of a face of the cube a step is half of the smallest
-// spacing.
+// spacing that options give. Spacings of a file have at least the usual raster.
 std::size_t raster_steps(const ScvtFiles& options) {
-  double least = std::strtod(options.spacing.c_str(), nullptr);
+  const bool is_file = is_file_of_spacings(options.spacing);
+  double least = is_file ? max_kilometers : std::strtod(options.spacing.c_str(), nullptr);
   for (const std::string& refinement : options.refine) {
     least = std::min(least, std::strtod(split_at_colon(refinement).second.c_str(), nullptr));
   }
-  std::size_t steps = 64;
-  while (steps < 2048 && static_cast<double>(steps) * least < 4 * kilometers_per_radian) steps *= 2;
+  std::size_t steps = is_file ? mesh::SizeFunction::usual_steps : 64;
+  while (steps < most_steps && static_cast<double>(steps) * least < 4 * kilometers_per_radian)
+    steps *= 2;
   return steps;
+}
+
+// Tells of places of --refine whose spacing even the finest raster is too coarse for.
+void tell_of_raster(const std::string& file, const std::vector<Point>& places, double near,
+                    const mesh::SizeFunction& size) {
+  if (near * static_cast<double>(most_steps) >= 4) return;  // as in raster_steps()
+  double largest = 0;
+  for (const Point& place : places) largest = std::max(largest, size.spacing(place));
+  if (largest <= 1.2 * near) return;
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "--refine: the spacing there is up to %.3g kilometers, since spacings are kept on a "
+      "raster with steps of up to %.0f km",
+      largest * kilometers_per_radian,
+      std::ceil(2 * kilometers_per_radian / static_cast<double>(most_steps)));
+  tell(file, {text.data()});
 }
 
 // Returns spacings for the number of cells that the mesh will have.
@@ -132,13 +154,14 @@ bool is_file_of_spacings(const std::string& spacing) {
   return !spacing.empty() && *end != '\0';
 }
 
-std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options,
-                                              const Execution& execution) {
+std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Execution& execution,
+                                              std::span<const Point> corners) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
     std::vector<std::string> remarks;
     mesh::SizeFunction density =
-        mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution, &remarks);
+        mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution, &remarks,
+                           {.most_steps = most_steps});
     tell(file, remarks);
     return density;
   }
@@ -149,8 +172,8 @@ std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options,
   } else {
     const auto [file, name] = split_at_colon(options.spacing);
     std::vector<std::string> remarks;
-    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian,
-                               mesh::SizeFunction::usual_steps, execution, &remarks);
+    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian, raster_steps(options),
+                               execution, &remarks, {.most_steps = most_steps, .corners = corners});
     tell(file, remarks);
   }
   for (const std::string& refinement : options.refine) {
@@ -158,13 +181,16 @@ std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options,
     const auto kilometers = as_kilometers("--refine", text);
     if (!kilometers) throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
     const double near = *kilometers / kilometers_per_radian;
+    // Points that are much closer than the steps of the finest raster change nothing.
+    const double distance = std::max(0.5 * near, 0.1 / static_cast<double>(most_steps));
     const std::vector<Point> places =
-        mesh::read_refinement({file, {}}, 0.5 * near, options.polygons, execution);
+        mesh::read_refinement({file, {}}, distance, options.polygons, execution);
     if (std::ranges::none_of(places, [&](const Point& p) { return size->spacing(p) > near; })) {
       tell(file, {"--refine: the spacing there is " + text +
                   " kilometers or less without it, which it does not change"});
     }
     size = size->refined(places, near, options.slope.value_or(usual_slope), execution);
+    tell_of_raster(file, places, near, *size);
   }
   if (options.slope || !options.refine.empty()) {
     size = size->limited(options.slope.value_or(usual_slope));

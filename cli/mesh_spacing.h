@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,9 @@ std::vector<NamedFile> files_read(const ScvtFiles& options);
 /// True if --spacing names a file, and no number of kilometers.
 bool is_file_of_spacings(const std::string& spacing);
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
-std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Execution& execution);
+/// \param corners  of the polygons in which the mesh is; none: it is on the whole sphere
+std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Execution& execution,
+                                              std::span<const Point> corners = {});
 /// Returns the same. Throws FileError if a mesh of Voronoi cells cannot have them.
 /// \param count  the number of cells; 0: not given
 std::optional<mesh::SizeFunction> size_of(const ScvtFiles& options, std::size_t count,

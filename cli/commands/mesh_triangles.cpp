@@ -48,6 +48,7 @@ struct MeshTrianglesOptions {
   double smallest_part = 0;
   std::string depth;      // --depth: positive down
   std::string elevation;  // --elevation: positive up
+  std::optional<double> least_depth;
   NetcdfOptions netcdf;
 };
 
@@ -79,6 +80,17 @@ mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Executio
   return domain;
 }
 
+// Returns the corners of the area; none if it is the sphere.
+std::vector<Point> corners_of_area(const mesh::MeshDomain& domain) {
+  std::vector<Point> corners;
+  for (const Geometries& area : domain.area) {
+    if (!area.polygons.whole.empty()) return {};
+    const std::vector<Point>& points = area.polygons.points;
+    corners.insert(corners.end(), points.begin(), points.end());
+  }
+  return corners;
+}
+
 // Returns the depths at the nodes of --depth or --elevation.
 std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<const Point> nodes,
                               const Execution& execution) {
@@ -96,6 +108,14 @@ std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<con
   tell(file, remarks);
   if (is_up) {
     for (double& depth : depths) depth = depth == 0 ? 0 : -depth;
+  }
+  if (options.least_depth) {
+    const auto number = static_cast<std::size_t>(
+        std::ranges::count_if(depths, [&](double depth) { return depth < *options.least_depth; }));
+    for (double& depth : depths) depth = std::max(depth, *options.least_depth);
+    if (number > 0) {
+      tell(file, {"--least-depth: " + count(number, "node is", "nodes are") + " less deep in it"});
+    }
   }
   return depths;
 }
@@ -151,11 +171,11 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   const Execution execution = job.execution();
   mesh::TrianglesOptions wanted;
   wanted.refine.smallest_angle_deg = options.angle;
-  wanted.refine.spacing = spacings_of(options.sizes, execution);
   wanted.fill_narrow = options.fill_narrow;
   wanted.smallest_part = options.smallest_part;
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
   const mesh::MeshDomain domain = read_domain(options, execution);
+  wanted.refine.spacing = spacings_of(options.sizes, execution, corners_of_area(domain));
   mesh::DomainTriangles made;
   mesh::TriangleMesh result;
   job.time(Stage::dual, [&] {
@@ -180,8 +200,8 @@ void add_domain(CLI::App& parser, MeshTrianglesOptions& options) {
     parser.add_option(name, files, what)->allow_extra_args(false)->type_name("FILE");
   };
   add("--coast", options.coast,
-      "Polygons of land, which the mesh leaves out, .geojson or a format of GDAL;\n"
-      "may be repeated");
+      "Polygons of land, which the mesh leaves out: .geojson, with GDAL installed .gpkg\n"
+      ".fgb .shp .parquet; may be repeated");
   add("--area", options.area,
       "Polygons inside of which the mesh is (default: everywhere); may be repeated");
   add("--lines", options.lines,
@@ -270,6 +290,18 @@ Command add_mesh_triangles_command(CLI::App& group) {
   parser->add_option("--elevation", options->elevation, "The same, for heights above the sea")
       ->excludes(depth)
       ->type_name("FILE");
+  CLI::Option* const least =
+      parser
+          ->add_option("--least-depth", options->least_depth,
+                       "Metres that each node has at least, as models need at coasts, where files\n"
+                       "have heights of land (default: depths as they are, which FESOM refuses if\n"
+                       "one is negative)")
+          ->check(finite_error)
+          ->type_name("M");
+  require_effect(
+      options->common, least,
+      [given = options.get()] { return !given->depth.empty() || !given->elevation.empty(); },
+      "without --depth or --elevation");
   add_output_option(*parser, options->common,
                     "Where to write the mesh: .msh (Gmsh; --format gmsh2 for 2.2) .14 (ADCIRC)\n"
                     ".gr3 .ll (SCHISM) .2dm (SMS) .nc (UGRID), or a folder with --format fesom")

@@ -26,6 +26,16 @@ RONDEL_API std::vector<Point> read_refinement(const FileName& file, double dista
                                               const PolygonOptions& options = {},
                                               const Execution& execution = {});
 
+/// What a mesh asks of the spacings of a file.
+struct SpacingsWanted {
+  /// While the raster has another spacing than a place of the file by more than a fifth, its steps are
+  /// doubled up to this number, and then a remark says how many places there are; 0: the steps stay.
+  std::size_t most_steps = 0;
+  /// Corners of the polygons in which the mesh is; empty: it is on the whole sphere. A remark says if
+  /// the places of the file do not surround them.
+  std::span<const Point> corners = {};
+};
+
 /// Reads spacings at places. They are interpolated linearly on the triangulation of the places, and
 /// are those of the nearest place outside of it.
 /// \param file  .nc with longitudes and latitudes of a grid or of points, or with the cells of an
@@ -34,12 +44,13 @@ RONDEL_API std::vector<Point> read_refinement(const FileName& file, double dista
 /// \param unit  what a value is multiplied by to get radians. If the attribute `units` says meters,
 ///              values are also divided by 1000; units other than meters and kilometers are refused
 /// \param[out] remarks  gets sentences on what the file has and the spacings have not: places without
-///              a value, and places that another one with another value repeats, of which the first
-///              one counts; null: nobody is told
+///              a value, places that another one with another value repeats, of which the first
+///              one counts, and parts of the sphere without places; null: nobody is told
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                                       std::size_t steps = SizeFunction::usual_steps,
                                       const Execution& execution = {},
-                                      std::vector<std::string>* remarks = nullptr);
+                                      std::vector<std::string>* remarks = nullptr,
+                                      const SpacingsWanted& wanted = {});
 
 /// Reads densities of a tessellation as read_spacings() reads spacings, and returns spacings: their
 /// power -1/4, the largest 1. Only the proportions count. For an MPAS mesh, "meshDensity" are the
@@ -47,7 +58,8 @@ RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& n
 RONDEL_API SizeFunction read_density(const FileName& file, const std::string& name,
                                      std::size_t steps = SizeFunction::usual_steps,
                                      const Execution& execution = {},
-                                     std::vector<std::string>* remarks = nullptr);
+                                     std::vector<std::string>* remarks = nullptr,
+                                     const SpacingsWanted& wanted = {});
 
 /// The direction in which the numbers of heights, or depths, grow (CF's attribute `positive`).
 enum class Positive : std::uint8_t { up, down };

@@ -132,9 +132,9 @@ void write_fesom(const std::string& folder, const MeshOfFile& mesh) {
   const mesh::TriangleMesh& arrays = mesh.mesh;
   for (std::size_t i = 0; i < arrays.depths.size(); ++i) {
     if (arrays.depths[i] >= 0) continue;
-    throw InvalidInput("node " + std::to_string(i) +
-                           " has a negative depth, which FESOM would take "
-                           "for a depth below the sea",
+    throw InvalidInput("node " + std::to_string(i + 1) +
+                           " (from 1) has a negative depth, which FESOM would take for a depth "
+                           "below the sea; mesh triangles --least-depth makes such nodes deeper",
                        i);
   }
   std::vector<bool> is_coast(arrays.points.size());

@@ -7,8 +7,11 @@
 // The places of a table are its sites; those of a netCDF field are its longitudes and latitudes, or
 // the cells of a mesh. The values are interpolated linearly on the triangulation of the places.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
+#include <numbers>
 #include <utility>
 
 #include "exact/vector.h"
@@ -21,6 +24,7 @@
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
+#include "map/ring_area.h"
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -232,10 +236,10 @@ void require_positive(const FileName& file, const Spacings& heights, Positive wa
   const auto text_of = [](Positive positive) {
     return positive == Positive::up ? "heights, positive up" : "depths, positive down";
   };
-  throw FileError(file.path + ": variable " + io::in_quotes(heights.variable) + " has " +
-                  text_of(given->positive) + " (" + given->evidence + "), where " +
-                  text_of(wanted) + ", are wanted: " +
-                  (wanted == Positive::down ? "--elevation reads it" : "--depth reads it"));
+  throw FileError(
+      file.path + ": variable " + io::in_quotes(heights.variable) + " has " +
+      text_of(given->positive) + " (" + given->evidence + "), where " + text_of(wanted) +
+      ", are wanted: " + (wanted == Positive::down ? "--elevation reads it" : "--depth reads it"));
 }
 
 // Values that are linear on the triangulation of their places, and beyond it those of the nearest
@@ -262,6 +266,20 @@ class LinearValues {
         given_.values, places, {.method = Method::linear, .outside = Outside::nearest}, execution_);
   }
 
+  // Returns the share of the sphere that the triangles cover.
+  [[nodiscard]] double share_of_sphere() const {
+    if (triangulation_.dimension() < 2) return 0;
+    if (triangulation_.num_ghost_faces() == 0) return 1;
+    double area = 0;
+    for (Index f = 0; f < triangulation_.num_faces(); ++f) {
+      if (triangulation_.is_ghost(f)) continue;
+      const auto& [a, b, c] = triangulation_.faces()[f];
+      area += map::area_on_left(
+          std::array<Point, 3>{given_.places[a], given_.places[b], given_.places[c]});
+    }
+    return area / (4 * std::numbers::pi);
+  }
+
   [[nodiscard]] std::size_t num_outside(std::span<const Point> places) const {
     const std::vector<double> values = interpolator_.values(
         given_.values, places, {.method = Method::linear, .outside = Outside::missing}, execution_);
@@ -276,15 +294,61 @@ class LinearValues {
   Interpolator interpolator_;
 };
 
+// Says which part of the sphere has places, if the mesh goes beyond it.
+void remark_on_reach(const LinearValues& values, std::span<const Point> corners,
+                     std::vector<std::string>* remarks) {
+  if (remarks == nullptr) return;
+  const double share = values.share_of_sphere();
+  if (share == 1 || (!corners.empty() && values.num_outside(corners) == 0)) return;
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "places with values surround %.2g %% of the sphere, and the mesh goes beyond: there "
+      "the value of the nearest place counts",
+      100 * share);
+  remarks->emplace_back(text.data());
+}
+
+// Returns the number of places whose value a function has not, by more than a fifth of it.
+std::size_t num_lost(std::span<const Point> places, std::span<const double> values,
+                     const SizeFunction& size) {
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    number += std::abs(size.spacing(places[i]) - values[i]) > values[i] / 5 ? 1U : 0U;
+  }
+  return number;
+}
+
 // Returns values at places as a function. `steps` is the resolution of SizeFunction::from_function().
 SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
-                         std::vector<std::string>* remarks) {
+                         std::vector<std::string>* remarks, const SpacingsWanted& wanted) {
   const LinearValues values(spacings, execution, remarks);
-  return SizeFunction::from_function(
-      [&](std::span<const Point> places, std::span<double> out) {
-        std::ranges::copy(values.at(places), out.begin());
-      },
-      steps);
+  remark_on_reach(values, wanted.corners, remarks);
+  const auto made = [&] {
+    return SizeFunction::from_function(
+        [&](std::span<const Point> places, std::span<double> out) {
+          std::ranges::copy(values.at(places), out.begin());
+        },
+        steps);
+  };
+  SizeFunction size = made();
+  if (wanted.most_steps == 0) return size;
+  // The first value counts at places that are repeated.
+  const std::vector<double> given = values.at(spacings.places);
+  std::size_t lost = num_lost(spacings.places, given, size);
+  while (lost > 0 && steps < wanted.most_steps) {
+    steps *= 2;
+    size = made();
+    lost = num_lost(spacings.places, given, size);
+  }
+  // Steps are longest in the middle of a face of the cube.
+  const double longest_km = 2 * 6371.229 / static_cast<double>(steps);
+  remark_on(lost, spacings.values.size(), "has", "have",
+            " another spacing by more than a fifth, since spacings are kept on a raster with steps "
+            "of up to " +
+                std::to_string(static_cast<int>(std::ceil(longest_km))) + " km",
+            remarks);
+  return size;
 }
 
 }  // namespace
@@ -306,7 +370,7 @@ std::vector<Point> read_refinement(const FileName& file, double distance,
 
 SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                            std::size_t steps, const Execution& execution,
-                           std::vector<std::string>* remarks) {
+                           std::vector<std::string>* remarks, const SpacingsWanted& wanted) {
   Spacings spacings = spacings_of(file, name, execution);
   drop_missing(file, spacings, remarks);
   // Meters become kilometers, which `unit` turns into radians.
@@ -320,11 +384,12 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
     }
     value *= unit;
   }
-  return function_of(spacings, steps, execution, remarks);
+  return function_of(spacings, steps, execution, remarks, wanted);
 }
 
 SizeFunction read_density(const FileName& file, const std::string& name, std::size_t steps,
-                          const Execution& execution, std::vector<std::string>* remarks) {
+                          const Execution& execution, std::vector<std::string>* remarks,
+                          const SpacingsWanted& wanted) {
   Spacings densities = spacings_of(file, name, execution);
   drop_missing(file, densities, remarks);
   for (std::size_t i = 0; i < densities.values.size(); ++i) {
@@ -336,7 +401,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   const double least = *std::ranges::min_element(densities.values);
   // Spacing goes with the density to the power of -1/4; the smallest density has spacing 1.
   for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
-  return function_of(densities, steps, execution, remarks);
+  return function_of(densities, steps, execution, remarks, wanted);
 }
 
 std::vector<double> read_heights(const FileName& file, const std::string& name, Positive positive,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Depths and heights of the sea floor in netCDF files: their direction, names and units.
+"""Depths, heights and spacings of meshes of triangles in netCDF files: direction, names, units, reach and detail.
 
 Without netCDF4-python ctest says "Skipped".
 """
@@ -39,7 +39,7 @@ class Files(unittest.TestCase):
     def depths_in(self, name):
         """The depths of a file of ADCIRC."""
         lines = (self.folder / name).read_text().splitlines()
-        return [float(line.split()[3]) for line in lines[2:2 + int(lines[1].split()[1])]]
+        return [round(float(line.split()[3]), 9) for line in lines[2:2 + int(lines[1].split()[1])]]
 
     def grid(self, name, value, lon=(-5.0, 15.0), lat=(-5.0, 15.0), **attributes):
         """A file with a value that is the same everywhere, or `values` on the axes."""
@@ -99,6 +99,52 @@ class DirectionsOfHeights(Files):
             self.grid("f.nc", 2, units=units)
             self.assertIn("neither kilometers nor meters", self.mesh("--depth")[1], units)
 
+    def test_have_a_least_depth(self):
+        self.grid("f.nc", [[-150, 150], [-150, 150]], units="m")
+        arguments = ("mesh", "triangles", "--area", "box.geojson", "--spacing", "300", "--depth", "f.nc:v", "--quiet")
+        status, text = self.run_tool(*arguments, "-o", "f", "--format", "fesom")
+        self.assertEqual(status, 1)
+        self.assertRegex(text, r"node \d+ \(from 1\) has a negative depth, .* --least-depth makes such nodes deeper\n")
+        status, text = self.run_tool(*arguments, "--least-depth", "5", "-o", "f", "--format", "fesom")
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"\Arondel: f.nc: --least-depth: \d+ nodes are less deep in it\n\Z")
+        for least in ("5", "-2"):
+            self.assertEqual(self.run_tool(*arguments, "--least-depth", least, "-o", "d.14")[0], 0)
+            depths = self.depths_in("d.14")
+            self.assertEqual(min(depths), float(least))
+            self.assertGreater(max(depths), 50)
+        self.assertEqual(self.run_tool(*arguments, "--least-depth", "-90", "-o", "d.14"), (0, ""))
+        self.assertLess(min(self.depths_in("d.14")), -5)
+        self.assertEqual(self.run_tool(*arguments, "--least-depth", "nan", "-o", "d.14")[0], 2)
+        status, text = self.run_tool(*arguments[:6], "--least-depth", "5", "-o", "d.14")
+        self.assertIn("--least-depth", text)
+        self.assertIn("without --depth or --elevation", text)
+
+
+class Spacings(Files):
+    def test_of_a_region_are_told_where_the_mesh_goes_beyond(self):
+        self.grid("h.nc", 900, units="km")
+        inside = ("mesh", "triangles", "--area", "box.geojson", "--spacing", "h.nc:v", "-o", "d.14", "--quiet")
+        self.assertEqual(self.run_tool(*inside), (0, ""))
+        beyond = "rondel: h.nc: places with values surround 0.97 % of the sphere, and the mesh goes beyond: there the value " \
+                 "of the nearest place counts\n"
+        self.assertEqual(self.run_tool("mesh", "triangles", "--spacing", "h.nc:v", "-o", "d.14", "--quiet"), (0, beyond))
+        self.assertEqual(self.run_tool("mesh", "scvt", "--spacing", "h.nc:v", "-o", "s.csv", "--max-steps", "1", "--quiet")[1]
+                         .splitlines()[0] + "\n", beyond)
+        self.grid("h.nc", 900, lon=(1.0, 15.0), units="km")
+        self.assertIn("the mesh goes beyond", self.run_tool(*inside)[1])
+        self.grid("h.nc", 900, lon=np.arange(0.0, 360, 30), lat=np.arange(-75.0, 76, 30), units="km")
+        self.assertEqual(self.run_tool("mesh", "triangles", "--spacing", "h.nc:v", "-o", "d.14", "--quiet"), (0, ""))
+
+    def test_of_refinements_are_told_where_the_raster_is_too_coarse(self):
+        (self.folder / "p.csv").write_text("lon,lat\n5,4\n")
+        arguments = ("mesh", "triangles", "--area", "box.geojson", "--spacing", "50", "-o", "d.14", "--quiet")
+        self.assertEqual(self.run_tool(*arguments, "--refine", "p.csv:20"), (0, ""))
+        status, text = self.run_tool(*arguments, "--refine", "p.csv:0.1")
+        self.assertEqual(status, 0)
+        self.assertRegex(text, r"\Arondel: p.csv: --refine: the spacing there is up to 0.\d+ kilometers, since spacings are "
+                               r"kept on a raster with steps of up to 7 km\n\Z")
+
 
 class DepthsOfMeshes(Files):
     def mesh(self, name="depth", values=(7, 8, 9, 10), **attributes):
@@ -134,6 +180,16 @@ class DepthsOfMeshes(Files):
             self.assertEqual(self.mesh("z", standard_name=name, units="m"), ([-7, -8, -9, -10], ""), name)
         self.assertEqual(self.mesh(positive="up", units="m"), ([-7, -8, -9, -10], ""))
         self.assertEqual(self.mesh(units="KM"), ([7000, 8000, 9000, 10000], ""))
+
+    def test_of_triangles_are_known_to_info(self):
+        self.mesh(units="m")
+        self.assertEqual(self.run_tool("mesh", "convert", "m.nc", "-o", "again.nc", "--quiet"), (0, ""))
+        for name in ("m.nc", "again.nc"):
+            done = subprocess.run([TOOL, "info", name], cwd=self.folder, text=True, capture_output=True, check=True)
+            self.assertIn("mesh convert", done.stdout, name)
+        self.grid("g.nc", 1)
+        done = subprocess.run([TOOL, "info", "g.nc"], cwd=self.folder, text=True, capture_output=True, check=True)
+        self.assertNotIn("mesh convert", done.stdout)
 
     def test_are_no_other_fields(self):
         for name, attributes in (("zeta", {"standard_name": "sea_surface_height_above_geoid"}),

@@ -267,6 +267,62 @@ TEST(mesh_spacing_files, tells_of_places_without_a_value_and_of_contradictions) 
   }
 }
 
+// Spacings of 100 on a grid of 5 degrees, and less in a dip around (0, 0).
+std::string file_with_dip(double width) {
+  const std::string path = temporary_path("dip.csv");
+  std::ofstream file(path);
+  file << "lon,lat,h\n";
+  for (int lon = -180; lon < 180; lon += 5) {
+    for (int lat = -85; lat <= 85; lat += 5) {
+      file << lon << ',' << lat << ','
+           << 100 - 60 * std::exp(-(lon * lon + lat * lat) / (width * width)) << '\n';
+    }
+  }
+  return path;
+}
+
+TEST(mesh_spacing_files, have_a_raster_that_is_fine_enough) {
+  std::vector<std::string> remarks;
+  const auto dip = [&](double width, std::size_t most_steps) {
+    remarks.clear();
+    return 1e3 * read_spacings({file_with_dip(width), {}}, "h", 1e-3, 4, {}, &remarks,
+                               {.most_steps = most_steps})
+                     .spacing(unit_vector({10, 0}));
+  };
+  // The raster of 4 steps has nodes at (0, 0) and 27 degrees from there, where the dip ends.
+  EXPECT_LT(dip(12, 0), 56);
+  EXPECT_EQ(remarks, std::vector<std::string>{});
+  EXPECT_NEAR(dip(12, 64), 70, 14);
+  (void)dip(12, 4);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(
+      remarks[0].substr(remarks[0].find(" places")),
+      " places have another spacing by more than a fifth, since spacings are kept on a raster "
+      "with steps of up to 3186 km");
+  (void)dip(1e3, 4);
+  EXPECT_EQ(remarks, std::vector<std::string>{});
+}
+
+TEST(mesh_spacing_files, tell_of_parts_of_the_sphere_without_places) {
+  const std::string path = temporary_path("region.csv");
+  std::ofstream(path) << "lon,lat,h\n0,0,100\n80,0,100\n0,90,200\n";
+  std::vector<std::string> remarks;
+  const auto read = [&](const std::vector<Point>& corners) {
+    remarks.clear();
+    (void)read_spacings({path, {}}, "h", 1e-3, 4, {}, &remarks, {.corners = corners});
+    return remarks;
+  };
+  const std::vector<std::string> beyond = {
+      "places with values surround 11 % of the sphere, and the mesh goes beyond: there the value "
+      "of "
+      "the nearest place counts"};
+  EXPECT_EQ(read({}), beyond);
+  EXPECT_EQ(read({{0.6, 0.6, 0.5}, {1, 0, 0}, {0.6, 0.5, 0.6}}), std::vector<std::string>{});
+  EXPECT_EQ(read({{0.6, 0.6, 0.5}, {0.6, 0.5, -0.6}}), beyond);
+  std::ofstream(path) << "lon,lat,h\n0,0,100\n90,0,100\n";
+  EXPECT_EQ(read({}).front().substr(0, 46), "places with values surround 0 % of the sphere,");
+}
+
 TEST(mesh_spacing_files, names_the_line_and_column_of_a_table) {
   const std::string path = temporary_path("spacings_of_lines.csv");
   std::ofstream(path) << "lon,lat,h,d\n0,0,,1\n\n90,30,100,-2\n180,-30,-5,1\n";
