@@ -365,10 +365,10 @@ class MeshesOfOceans(Files):
 
     def test_variables_that_are_left_out_are_told(self):
         data = self.mesh("a.nc")
-        add(data, "depth", ("node",), [1.0, 2, 3, 4], units="m")
+        add(data, "drag", ("node",), [1.0, 2, 3, 4], units="m")
         data.close()
         said = self.run_tool("mesh", "convert", "a.nc", "-o", "fort.14")
-        self.assertIn("left out, as they are no part of the mesh: depth", said)
+        self.assertIn("left out, as they are no part of the mesh: drag", said)
 
     def test_faces_that_are_the_last_dimension(self):
         data = self.mesh("t.nc", "transposed", face_coordinates="lonc latc")

@@ -21,7 +21,7 @@ from commands import run
 
 # What rondel::geo uses of the core, and rondel::distributed of both.
 USED_ABOVE = re.compile(
-    r"rondel::(api::(build_parts|make_triangulation|prove_delaunay|require_delaunay|validate|validate_queries)|bulk::(AllSites|Bucket|join_buckets|triangulate_bucket)"
+    r"rondel::(api::(build_parts|make_triangulation|prove_delaunay|require_(delaunay|unchanged_faces)|validate|validate_queries)|bulk::(AllSites|Bucket|join_buckets|triangulate_bucket)"
     r"|dynamic::(Places|Renumbering|live_sites|make_build)"
     r"|formats::regrid_by_ranks|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(AtomicFile|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|has_zip_member|remark_on_units|require_o(ne_place|rder)|append_(csv_field|number)|column_names|columns_of_csv|csv_of|find_(attribute|column)|full_name|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|require_different_names|shape_(of_grid|text)|table_text|throw_unknown_ending|trim|zip_member|replaced_by|temporary_name|write_in_parallel|ValueRules|coordinate_evidence|default_fill|degrees_of|has_netcdf_ending|header_of|headers_of|in_order|is_connectivity|is_known_name|is_netcdf|lower_case|meant_numbers|places_of|transposed|with_kind|without_blanks)|kernel::(find_span|insertion_order)|map::(area_on_left|is_clockwise|is_surely_larger|line_parts|lonlat_of|region_polygons|valid_regions)|overlay::(cells_in|with_outside)|order::(place_keys?|radix_sort|spatial_order|SpatialIndex)|predicates::directions|query::(Built|Engine|order_ties_by_place)|topology::(flat_pair|star))\b|rondel::api::validate_some"
 )
