@@ -66,8 +66,8 @@ void require_lonlat(const std::string& metadata) {
 // Refuses a struct that was released, or that its owner has moved elsewhere: what it points to is no
 // longer there.
 template <class Struct>
-const Struct& live(const Struct& given) {
-  if (given.release == nullptr) refuse_arrow("was released");
+const Struct* live(const Struct* given) {
+  if (given->release == nullptr) refuse_arrow("was released");
   return given;
 }
 
@@ -118,14 +118,14 @@ ListLevel lists_of(const ArrowArray& array, std::uint64_t begin, std::uint64_t e
 }  // namespace
 
 std::string_view geoarrow_type(const ArrowSchema& schema) {
-  const std::string_view type = metadata_of(live(schema).metadata, "ARROW:extension:name");
+  const std::string_view type = metadata_of(live(&schema)->metadata, "ARROW:extension:name");
   if (type.empty()) refuse_arrow("has no type of GeoArrow");
   require_lonlat(std::string(metadata_of(schema.metadata, "ARROW:extension:metadata")));
   return type;
 }
 
 ArrowLevels::ArrowLevels(const ArrowSchema& schema, const ArrowArray& array)
-    : schema_(&live(schema)), array_(&live(array)) {
+    : schema_(live(&schema)), array_(live(&array)) {
   if (array.length < 0 || array.offset < 0) refuse_arrow("has a negative length");
   end_ = static_cast<std::uint64_t>(array.length);
 }
@@ -184,14 +184,14 @@ std::vector<LonLat> ArrowLevels::positions() const {
 void ArrowLevels::go_to_child(std::int64_t child) {
   if (schema_->n_children <= child || array_->n_children <= child)
     refuse_arrow("lacks its elements");
-  schema_ = &live(*schema_->children[child]);
-  array_ = &live(*array_->children[child]);
+  schema_ = live(schema_->children[child]);
+  array_ = live(array_->children[child]);
 }
 
 const double* ArrowLevels::numbers(std::int64_t child, std::uint64_t size) const {
   if (array_->n_children <= child) refuse_arrow("lacks its elements");
-  const ArrowArray& array = live(*array_->children[child]);
-  if (field_format(live(*schema_->children[child])) != "g") {
+  const ArrowArray& array = *live(array_->children[child]);
+  if (field_format(*live(schema_->children[child])) != "g") {
     refuse_arrow("has coordinates that are no doubles");
   }
   const auto* const values = static_cast<const double*>(buffer_of(array, 1));

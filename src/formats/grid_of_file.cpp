@@ -244,13 +244,14 @@ void require_pixels(const io::NetcdfReader& reader) {
         !find_coordinates(headers_of(reader)).empty()) {
       continue;
     }
-    const std::string start =
-        "variable " + io::in_quotes(variable.name) + " is the grid mapping of ";
-    if (!lack.empty()) throw io::BadValue(start + "HEALPix, but has no " + lack);
-    throw io::BadValue(start + io::in_quotes(name) + " with " +
-                       std::to_string(NamedGrid(name).num_cells()) +
-                       " pixels, but no dimension is as long, and no variable has the numbers of "
-                       "some of them, as a variable with the standard_name healpix_index");
+    std::string said = "variable " + io::in_quotes(variable.name) + " is the grid mapping of ";
+    if (!lack.empty()) throw io::BadValue(said.append("HEALPix, but has no ").append(lack));
+    said.append(io::in_quotes(name)).append(" with ");
+    said.append(std::to_string(NamedGrid(name).num_cells()));
+    throw io::BadValue(
+        said.append(" pixels, but no dimension is as long, and no variable has the numbers of some "
+                    "of them, as a "
+                    "variable with the standard_name healpix_index"));
   }
 }
 

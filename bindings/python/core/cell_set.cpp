@@ -141,21 +141,9 @@ void add_cell_facts(nb::module_& module) {
       .def_rw("remarks", &CellFacts::remarks);
 }
 
-// Adds the functions that make cells.
-void add_makers(nb::class_<CellSet>& cells) {
+// Adds the functions that make cells of grids.
+void add_grid_makers(nb::class_<CellSet>& cells) {
   cells
-      .def_static(
-          "voronoi",
-          [](const Triangulation& t, unsigned threads) {
-            return unlocked([&] { return CellSet::voronoi(t, {.threads = threads}); });
-          },
-          nb::arg("triangulation"), nb::arg("threads"))
-      .def_static(
-          "triangles",
-          [](const Triangulation& t, unsigned threads) {
-            return unlocked([&] { return CellSet::triangles(t, {.threads = threads}); });
-          },
-          nb::arg("triangulation"), nb::arg("threads"))
       .def_static(
           "lonlat_grid",
           [](const NumbersIn& lon, const NumbersIn& lat, nb::handle sides, unsigned threads) {
@@ -189,7 +177,24 @@ void add_makers(nb::class_<CellSet>& cells) {
             const auto some = vector_of<Index>(numbers);
             return unlocked([&] { return NamedGrid(name).cells(some, {.threads = threads}); });
           },
-          nb::arg("name"), nb::arg("numbers").noconvert(), nb::arg("threads"))
+          nb::arg("name"), nb::arg("numbers").noconvert(), nb::arg("threads"));
+}
+
+// Adds the functions that make cells.
+void add_makers(nb::class_<CellSet>& cells) {
+  cells
+      .def_static(
+          "voronoi",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return CellSet::voronoi(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
+      .def_static(
+          "triangles",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return CellSet::triangles(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
       .def_static(
           "polygons",
           [](const CellRings& rings, unsigned threads) {
@@ -265,6 +270,7 @@ void add_cell_set(nb::module_& module) {
   add_cell_facts(module);
   nb::class_<CellSet> cells(module, "CellSet");
   add_makers(cells);
+  add_grid_makers(cells);
   cells.def_prop_ro("num_cells", &CellSet::num_cells)
       .def_prop_ro("covers_sphere", &CellSet::covers_sphere)
       .def_prop_ro("facts", &CellSet::facts, nb::rv_policy::reference_internal)
