@@ -67,7 +67,11 @@ class PositionRepair {
   // A node whose position is exactly its own stays: triangles of such nodes are positive.
   bool move(Index node) {
     if (points_[node] == mesh_.points[node]) return false;
-    const auto star = std::ranges::equal_range(stars_, node, {}, &std::pair<Index, Index>::first);
+    const auto begin = std::ranges::lower_bound(stars_, std::pair{node, Index{0}});
+    const auto end = std::ranges::lower_bound(stars_, std::pair{node + 1, Index{0}});
+    const auto is_star_positive = [&] {
+      return std::all_of(begin, end, [&](const auto& part) { return is_positive(part.second); });
+    };
     const LonLat before = positions_[node];
     const Point point_before = points_[node];
     bool has_moved = false;
@@ -75,8 +79,7 @@ class PositionRepair {
     map::visit_around(before, least_step, [&](const LonLat& candidate) {
       points_[node] = map::point_at(candidate);
       positions_[node] = candidate;
-      has_moved =
-          std::ranges::all_of(star, [&](const auto& part) { return is_positive(part.second); });
+      has_moved = is_star_positive();
       return has_moved;
     });
     if (has_moved) return true;
