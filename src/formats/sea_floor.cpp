@@ -8,6 +8,7 @@
 
 #include "formats/cf_names.h"
 #include "io/bad_value.h"
+#include "io/number.h"
 
 namespace rondel::formats {
 

@@ -12,6 +12,7 @@
 
 #include "arrangement/arc_contacts.h"
 #include "arrangement/box_tree.h"
+#include "exact/point_order.h"
 #include "exact/vector.h"
 
 namespace rondel::meshing {
