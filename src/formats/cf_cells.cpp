@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "formats/cf_lines.h"
+#include "formats/cf_names.h"
 #include "formats/cf_reader.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"

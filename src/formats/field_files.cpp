@@ -15,6 +15,7 @@
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
+#include "io/number.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 
