@@ -54,7 +54,7 @@ class Emission {
  private:
   static bool is_open(Index face) { return has_open && face == open_face; }
 
-  // What one edge tells of the sites, for the lower one of its ends.
+  // Counts the face on the left of an edge for the lower one of its ends, if this site owns it.
   RONDEL_ALWAYS_INLINE void look_at(Edge e, const PlaneGraph::Links* rings, const Index* targets,
                                     const Index* faces, Owned* owned) const {
     if (targets[e] == no_index) return;

@@ -113,8 +113,8 @@ class FlipMender {
     return predicates::orientation(std::as_const(sites_), a, b, c).sign == Sign::positive;
   }
 
-  // What is asked of a face of the new points: whether it is positive, how far from the center it is,
-  // and on which side of it a site is.
+  // A face of the new points as three questions need it: whether it is positive, how far from the
+  // center it is, and on which side of it a site is.
   struct FaceOfPoints {
     predicates::Vector a;
     predicates::Vector normal;

@@ -4,7 +4,6 @@
 #include "meshing/sound_positions.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
