@@ -88,8 +88,7 @@ class ArcFan {
 
  private:
   [[nodiscard]] unsigned corner_in(Index f) const {
-    const Triple& face = all_.corners(f);
-    return face[0] == v_ ? 0 : face[1] == v_ ? 1 : 2;
+    return topology::corner_of(all_.corners(f), v_);
   }
   // Crosses an edge of the face. Returns false if there is a ghost face.
   bool turn(unsigned edge) {
@@ -177,7 +176,7 @@ class ArcInsertion {
       Index face = first;
       do {
         const Triple& corners = faces.corners(face);
-        const unsigned own = corners[0] == a ? 0 : corners[1] == a ? 1 : 2;
+        const unsigned own = topology::corner_of(corners, a);
         const unsigned next = topology::next_corner[own];
         const unsigned previous = topology::previous_corner[own];
         if (corners[next] == b) return topology::halfedge(face, previous);

@@ -35,40 +35,111 @@ std::string text_of(const Ends& constraints, const LonLat& place) {
          system::shortest_text(place.lat_deg);
 }
 
-// Inserts all constraints, and returns their pieces, sorted by their ends.
-std::vector<ConstrainedPiece> insert_all(ConstrainedFaces& faces, const NamedSites& sites,
-                                         std::span<const Ends> ends, const system::Job& job) {
-  // Neighbors in this order are close to each other; so a long constraint finds few short ones
-  // that were inserted far away, and memory that is known.
-  std::vector<ConstrainedPiece> order;
-  order.reserve(ends.size());
-  for (Index i = 0; i < ends.size(); ++i) {
-    order.push_back(piece_between(faces.vertex_of(ends[i][0]), faces.vertex_of(ends[i][1]), i));
+// True if most of the constraints begin near the one before, as those of a line do, in space and in
+// memory.
+bool are_near_each_other(const ConstrainedFaces& faces, std::span<const Ends> ends) {
+  constexpr std::size_t num_tried = 1024;
+  constexpr Index near = 256;
+  const auto is_near = [](Index i, Index j) { return std::max(i, j) - std::min(i, j) < near; };
+  const std::size_t stride = std::max<std::size_t>(ends.size() / num_tried, 1);
+  std::size_t num_near = 0;
+  std::size_t num_pairs = 0;
+  for (std::size_t i = 1; i < ends.size(); i += stride) {
+    const Index before = ends[i - 1][0];
+    const Index name = ends[i][0];
+    num_near +=
+        is_near(before, name) && is_near(faces.rank_of(before), faces.rank_of(name)) ? 1 : 0;
+    ++num_pairs;
   }
-  sort_by_ends(order, sites.size());
-  std::vector<ConstrainedPiece> pieces;
-  pieces.reserve(ends.size());
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    constexpr std::size_t pause = 4096;
-    if (k % pause == 0) {
-      system::obey_stop();
-      system::announce(job, "constrain", k, order.size());
+  return 2 * num_near >= num_pairs;
+}
+
+// Inserts constraints between names.
+class Insertion {
+ public:
+  Insertion(ConstrainedFaces& faces, std::span<const Ends> ends, const system::Job& job)
+      : faces_(faces), ends_(ends), job_(job) {}
+
+  // Inserts all, or returns two that cross.
+  std::optional<Ends> run() {
+    std::vector<ConstrainedPiece> others;
+    const bool are_near = are_near_each_other(faces_, ends_);
+    if (are_near) {
+      constrain_edges(others);
+    } else {
+      list_by_ranks(others);
     }
-    const Index i = order[k].constraint;
-    const auto crossed = faces.insert(order[k], pieces);
-    if (!crossed) continue;
-    const ConstrainedPiece edge = piece_between((*crossed)[0], (*crossed)[1], 0);
-    const auto other = std::ranges::find_if(pieces, [&](const ConstrainedPiece& piece) {
-      return piece.low == edge.low && piece.high == edge.high;
-    });
-    const auto [low, high] = std::minmax(i, other->constraint);
-    throw CrossingConstraints(
-        low, high,
-        place_of_crossing({sites.point(ends[low][0]), sites.point(ends[low][1])},
-                          {sites.point(ends[high][0]), sites.point(ends[high][1])}, job.sphere));
+    divided_.reserve(others.size());
+    for (const ConstrainedPiece& other : others) divided_.push_back(other.constraint);
+    constexpr std::size_t few = 32;  // sites for each constraint
+    if (!are_near || others.size() > faces_.num_sites() / few) {
+      faces_.number_by_rank(job_.threads);
+    }
+    // Neighbors in the order of ranks are close to each other; so a long constraint finds few short
+    // ones that were inserted far away, and memory that is known.
+    sort_by_ends(others, faces_.num_sites());
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      pause_at(ends_.size() - others.size() + k);
+      if (const auto crossed = faces_.insert(others[k], pieces_)) {
+        return Ends{others[k].constraint, constraint_of(*crossed)};
+      }
+    }
+    return {};
   }
-  sort_by_ends(pieces, sites.size());
-  return pieces;
+
+  [[nodiscard]] PiecesOfConstraints pieces() const { return {ends_, divided_, pieces_}; }
+
+ private:
+  static constexpr std::size_t pause = 4096;  // constraints
+
+  void pause_at(std::size_t inserted) const {
+    if (inserted % pause != 0) return;
+    system::obey_stop();
+    system::announce(job_, "constrain", inserted, ends_.size());
+  }
+
+  // Appends the constraints that are not known to be edges, by ranks.
+  void constrain_edges(std::vector<ConstrainedPiece>& others) {
+    for (std::size_t i = 0; i < ends_.size(); i += pause) {
+      pause_at(i);
+      const auto some = ends_.subspan(i, std::min(pause, ends_.size() - i));
+      faces_.constrain_edges(some, static_cast<Index>(i), others);
+    }
+  }
+  void list_by_ranks(std::vector<ConstrainedPiece>& arcs) const {
+    arcs.reserve(ends_.size());
+    for (Index i = 0; i < ends_.size(); ++i) {
+      arcs.push_back(piece_between(faces_.rank_of(ends_[i][0]), faces_.rank_of(ends_[i][1]), i));
+    }
+  }
+
+  // Returns a constraint that an edge between two names is a piece of.
+  [[nodiscard]] Index constraint_of(const Ends& edge) const {
+    const ConstrainedPiece wanted = piece_between(edge[0], edge[1], 0);
+    for (const ConstrainedPiece& piece : pieces_) {
+      if (piece.low == wanted.low && piece.high == wanted.high) return piece.constraint;
+    }
+    const auto whole = std::ranges::find_if(ends_, [&](const Ends& ends) {
+      return std::minmax(ends[0], ends[1]) == std::minmax(wanted.low, wanted.high);
+    });
+    return static_cast<Index>(whole - ends_.begin());
+  }
+
+  ConstrainedFaces& faces_;
+  std::span<const Ends> ends_;
+  const system::Job& job_;
+  std::vector<Index> divided_;  // all others are edges
+  std::vector<ConstrainedPiece> pieces_;
+};
+
+// Throws with the place where two constraints cross.
+void refuse(const Ends& crossing, std::span<const Ends> ends, const NamedSites& sites,
+            const Sphere& sphere) {
+  const auto [low, high] = std::minmax(crossing[0], crossing[1]);
+  const auto arc = [&](Index i) {
+    return std::array{sites.point(ends[i][0]), sites.point(ends[i][1])};
+  };
+  throw CrossingConstraints(low, high, place_of_crossing(arc(low), arc(high), sphere));
 }
 
 ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> constraints,
@@ -84,22 +155,21 @@ ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> con
   const bool has_edges = built.arrays.dimension == 2 && !ends.empty();
   if (has_edges) {
     ConstrainedFaces faces(sites.points(), built, job.sphere, job.threads);
-    list_edges(insert_all(faces, named, ends, job), sources, result);
+    Insertion insertion(faces, ends, job);
+    if (const auto crossing = insertion.run()) refuse(*crossing, ends, named, job.sphere);
+    list_edges(insertion.pieces(), sites.size(), sources, result);
+    faces.give_back(job.threads, built.arrays, result.sides);
     if (faces.has_changes()) {
-      write_in_order(faces.to_order(), job.threads, built.arrays, result.sides);
       result.triangulation = with_faces(sites, std::move(built.arrays), job, built.report);
       system::announce(job, "constrain", 1);
       return result;
     }
-    result.sides = faces.sides();
-    faces.give_back(built.arrays);
   }
   result.triangulation = api::make_triangulation(sites, std::move(built.arrays), job, built.report);
   if (!has_edges) {
     result.sides.resize(result.triangulation.num_faces());
-    std::vector<ConstrainedPiece> pieces = pieces_on_ring(result.triangulation, named, ends);
-    std::ranges::sort(pieces);
-    list_edges(pieces, sources, result);
+    list_edges({{}, {}, pieces_on_ring(result.triangulation, named, ends)}, sites.size(), sources,
+               result);
   }
   system::announce(job, "constrain", 1);
   return result;

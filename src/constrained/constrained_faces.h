@@ -3,10 +3,11 @@
 
 // The faces of a build, into which constraints are inserted one by one (arc_insertion.h).
 //
-// in    the faces of a triangulation, pairs of vertices
-// out   the faces that have these edges; in any order, those that were kept under their numbers
-// index vertices along the spatial order, so that neighbors are close in memory; faces; halfedges
-//       3 * face + i, the edge opposite to corner i
+// in    the faces of a triangulation, pairs of sites
+// out   the faces that have these edges, in canonical order
+// index vertices, which are names at first, as the build has them, and ranks in the spatial order
+//       once number_by_rank() is called: then neighbors are close in memory, which is worth it if
+//       many faces change; faces; halfedges 3 * face + i, the edge opposite to corner i
 #pragma once
 
 #include <array>
@@ -34,23 +35,30 @@ class ConstrainedFaces {
   ConstrainedFaces(std::span<const Point> sites, api::Parts& built, const Sphere& sphere,
                    unsigned threads);
 
-  // Inserts the arc of a constraint between two vertices, not opposite to each other, and appends
-  // the pieces of it, by names. If it crosses a constraint, some pieces are appended, and an edge
-  // of that constraint is returned, by names; then nothing may be inserted any more.
+  // Lets constraints between names be edges where they are some already. Appends the others by ranks:
+  // those that are no edges, or not among the first ones at an end. The first constraint has this
+  // number. To be called before any insert(), best with constraints that are near each other.
+  void constrain_edges(std::span<const std::array<Index, 2>> ends, Index first,
+                       std::vector<ConstrainedPiece>& others);
+
+  // Inserts the arc of a constraint between two ranks, not opposite to each other, and appends the
+  // pieces of it, by names. If it crosses a constraint, some pieces are appended, and an edge of
+  // that constraint is returned, by names; then nothing may be inserted any more.
   std::optional<std::array<Index, 2>> insert(const ConstrainedPiece& arc,
                                              std::vector<ConstrainedPiece>& pieces);
+  // Lets vertices be ranks. Either this or constrain_edges() comes before the first insert().
+  void number_by_rank(unsigned threads);
 
-  [[nodiscard]] Index vertex_of(Index name) const { return vertices_[name]; }
-  [[nodiscard]] Index name_of(Index vertex) const { return names_[vertex]; }
+  [[nodiscard]] std::size_t num_sites() const { return sites_.size(); }
+  [[nodiscard]] Index rank_of(Index name) const { return ranks_[name]; }
+  [[nodiscard]] Index vertex_of(Index name) const { return is_by_rank_ ? ranks_[name] : name; }
+  [[nodiscard]] Index name_of(Index vertex) const { return is_by_rank_ ? names_[vertex] : vertex; }
 
-  // Lets all faces start with their owners (topology/canonical_order.h), as those do that did not
-  // change, and returns them. Then no arc may be inserted any more.
-  [[nodiscard]] FacesToOrder to_order();
-  // Moves all faces as they are, with names as corners, to arrays.
-  void give_back(TriangulationArrays& arrays);
+  // Moves the faces to the arrays that they were taken out of, in canonical order. Then nothing may
+  // be called any more but has_changes().
+  void give_back(unsigned threads, TriangulationArrays& arrays, std::vector<std::uint8_t>& sides);
 
   [[nodiscard]] bool has_changes() const { return has_changes_; }
-  [[nodiscard]] const std::vector<std::uint8_t>& sides() const { return sides_; }
 
   // These are what ArcInsertion asks for.
   [[nodiscard]] bool is_solid(Index face) const { return (states_[face] & ghost_face) == 0; }
@@ -74,22 +82,33 @@ class ConstrainedFaces {
 
  private:
   [[nodiscard]] bool is_changed(Index face) const { return (states_[face] & changed_face) != 0; }
-  void number_vertices(unsigned threads);
-  void rename_corners(unsigned threads, std::span<const Index> names);
-  [[nodiscard]] const Point& point(Index v) const { return sites_[order_[v]]; }
+  [[nodiscard]] const Point& point(Index v) const {
+    return sites_[order_[is_by_rank_ ? v : ranks_[v]]];
+  }
+  [[nodiscard]] predicates::Vector direction(Index v) const {
+    return is_by_rank_ ? directions_[v] : predicates::direction(point(v), sphere_.center);
+  }
+  [[nodiscard]] Index rank_of_vertex(Index v) const { return is_by_rank_ ? v : ranks_[v]; }
+  void rank_names(unsigned threads);
+  void find_faces();
+  bool constrain_edge(Index a, Index b);
+  void start_with_owner(Index face);
 
   Sphere sphere_;
   std::span<const Point> sites_;
-  std::vector<Index> order_;  // by vertex: the site whose coordinates count
-  std::vector<Index> names_;
-  LargeVector<Index> vertices_;  // by name
-  LargeVector<predicates::Vector> directions_;
+  std::vector<Index> order_;  // by rank: the site whose coordinates count
+  std::vector<Index> names_;  // by rank
+  LargeVector<Index> ranks_;  // by name
+  bool is_by_rank_ = false;
+  LargeVector<predicates::Vector> directions_;  // by vertex, if vertices are ranks
   LargeVector<Triple> faces_;
   LargeVector<Triple> neighbors_;
   std::vector<std::uint8_t> sides_;
   std::vector<std::uint8_t> states_;  // FaceState, by face
-  LargeVector<Index> face_at_;        // a solid face at each vertex
-  std::vector<std::uint8_t> is_touched_;
+  LargeVector<Index> face_at_;  // a solid face at each vertex, its own first one if it has one
+  std::vector<std::uint8_t> is_touched_;  // as in FacesToOrder, if vertices are ranks
+  std::vector<ChangedFace> changed_;      // otherwise
+  bool has_ghosts_ = false;
   bool has_changes_ = false;
   ArcInsertion<ConstrainedFaces> insertion_;
 };

@@ -40,10 +40,18 @@ LonLat place_of_crossing(const std::array<Point, 2>& e, const std::array<Point, 
   return lonlats(std::span(&point, 1))[0];
 }
 
+namespace {
+
+bool is_worth_counting(std::size_t num_pieces, std::size_t bound) {
+  constexpr std::size_t few = 8;  // ends for each piece
+  return num_pieces >= bound / few && num_pieces < no_index;
+}
+
+}  // namespace
+
 // Sorts by counting the pieces of each lower end, or as usual if there are few.
 void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
-  constexpr std::size_t few = 8;  // ends for each piece
-  if (pieces.size() < bound / few || pieces.size() >= no_index) {
+  if (!is_worth_counting(pieces.size(), bound)) {
     std::ranges::sort(pieces);
     return;
   }
@@ -61,32 +69,98 @@ void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound) {
   pieces = std::move(sorted);
 }
 
-void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
-                ConstrainedTriangulation& result) {
-  std::vector<Index>& values = result.sources.values;
-  values.reserve(pieces.size());
-  result.edges.reserve(pieces.size());
-  result.sources.offsets.reserve(pieces.size() + 1);
-  for (std::size_t begin = 0; begin < pieces.size();) {
-    const std::array<Index, 2> edge = {pieces[begin].low, pieces[begin].high};
-    const auto first = static_cast<std::ptrdiff_t>(values.size());
-    std::size_t end = begin;
-    for (; end < pieces.size() && std::array{pieces[end].low, pieces[end].high} == edge; ++end) {
-      const Index constraint = pieces[end].constraint;
-      if (sources == nullptr) {
-        values.push_back(constraint);
-      } else {
-        values.insert(values.end(), (*sources)[constraint].begin(), (*sources)[constraint].end());
+namespace {
+
+template <class Visit>
+void visit_pieces(const PiecesOfConstraints& all, const Visit& visit) {
+  auto divided = all.divided.begin();
+  for (Index i = 0; i < all.ends.size(); ++i) {
+    if (divided != all.divided.end() && *divided == i) {
+      ++divided;
+    } else {
+      visit(piece_between(all.ends[i][0], all.ends[i][1], i));
+    }
+  }
+  for (const ConstrainedPiece& piece : all.pieces) visit(piece);
+}
+
+// Writes the edges of pieces, sorted, and the constraint of each.
+void write_sorted(const PiecesOfConstraints& all, std::size_t bound,
+                  std::vector<std::array<Index, 2>>& edges, std::vector<Index>& constraints) {
+  edges.resize(all.size());
+  constraints.resize(all.size());
+  const auto write = [&](std::size_t place, const ConstrainedPiece& piece) {
+    edges[place] = {piece.low, piece.high};
+    constraints[place] = piece.constraint;
+  };
+  std::vector<ConstrainedPiece> sorted;
+  const auto write_all = [&](std::size_t begin) {
+    std::ranges::sort(sorted);
+    for (const ConstrainedPiece& piece : sorted) write(begin++, piece);
+    sorted.clear();
+  };
+  if (!is_worth_counting(all.size(), bound)) {
+    visit_pieces(all, [&](const ConstrainedPiece& piece) { sorted.push_back(piece); });
+    write_all(0);
+    return;
+  }
+  system::RowPlaces<Index> places(bound);
+  visit_pieces(all, [&](const ConstrainedPiece& piece) { places.count(piece.low); });
+  places.sum();
+  visit_pieces(all, [&](const ConstrainedPiece& piece) { write(places.place(piece.low), piece); });
+  for (std::size_t begin = 0; begin < edges.size();) {
+    std::size_t end = begin + 1;
+    while (end < edges.size() && edges[end][0] == edges[begin][0]) ++end;
+    if (end - begin > 1) {
+      for (std::size_t i = begin; i < end; ++i) {
+        sorted.push_back({edges[i][0], edges[i][1], constraints[i]});
       }
+      write_all(begin);
     }
-    if (end - begin > 1 || sources != nullptr) {
-      std::sort(values.begin() + first, values.end());
-      values.erase(std::unique(values.begin() + first, values.end()), values.end());
-    }
-    result.edges.push_back(edge);
-    result.sources.end_row();
     begin = end;
   }
+}
+
+// Lists each edge once: its constraints follow each other.
+void unite_edges(std::vector<std::array<Index, 2>>& edges, std::vector<std::uint64_t>& offsets) {
+  offsets.resize(edges.size() + 1);
+  std::size_t num_edges = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [low, high] = edges[i];
+    if (num_edges > 0 && edges[num_edges - 1][0] == low && edges[num_edges - 1][1] == high)
+      continue;
+    edges[num_edges] = {low, high};
+    offsets[num_edges++] = i;
+  }
+  offsets[num_edges] = edges.size();
+  offsets.resize(num_edges + 1);
+  edges.resize(num_edges);
+}
+
+// Returns, for each row of constraints, the sources of these.
+CompressedRows<Index> sources_of(const CompressedRows<Index>& constraints,
+                                 const CompressedRows<Index>& sources) {
+  CompressedRows<Index> result;
+  std::vector<Index> row;
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    row.clear();
+    for (const Index constraint : constraints[i]) {
+      row.insert(row.end(), sources[constraint].begin(), sources[constraint].end());
+    }
+    std::ranges::sort(row);
+    row.erase(std::unique(row.begin(), row.end()), row.end());
+    result.append(row);
+  }
+  return result;
+}
+
+}  // namespace
+
+void list_edges(const PiecesOfConstraints& all, std::size_t bound,
+                const CompressedRows<Index>* sources, ConstrainedTriangulation& result) {
+  write_sorted(all, bound, result.edges, result.sources.values);
+  unite_edges(result.edges, result.sources.offsets);
+  if (sources != nullptr) result.sources = sources_of(result.sources, *sources);
 }
 
 Triangulation with_faces(const Sites& sites, TriangulationArrays arrays, const Options& options,

@@ -29,9 +29,19 @@ LonLat place_of_crossing(const std::array<Point, 2>& e, const std::array<Point, 
 // Sorts pieces by their ends, which are less than `bound`.
 void sort_by_ends(std::vector<ConstrainedPiece>& pieces, std::size_t bound);
 
-// Lists edges with their constraints, or with the sources of these.
-void list_edges(std::span<const ConstrainedPiece> pieces, const CompressedRows<Index>* sources,
-                ConstrainedTriangulation& result);
+// The pieces of constraints, by names, in any order.
+struct PiecesOfConstraints {
+  std::span<const std::array<Index, 2>> ends;
+  std::span<const Index> divided;            // ascending: the constraints that are not one edge
+  std::span<const ConstrainedPiece> pieces;  // of these
+
+  [[nodiscard]] std::size_t size() const { return ends.size() - divided.size() + pieces.size(); }
+};
+
+// Lists the edges, between names less than `bound`, with their constraints, or with the sources of
+// these.
+void list_edges(const PiecesOfConstraints& all, std::size_t bound,
+                const CompressedRows<Index>* sources, ConstrainedTriangulation& result);
 
 // Returns a triangulation of faces that are not all Delaunay: what relies on that proves it first.
 Triangulation with_faces(const Sites& sites, TriangulationArrays arrays, const Options& options,

@@ -107,10 +107,9 @@ ConstrainedSnapshot make_snapshot(const dynamic::Places& places, const Constrain
   const std::vector<std::uint8_t> is_touched(names.size(), 1);
   write_in_order({faces.faces, faces.neighbors, faces.sides, faces.states, is_touched, names}, 1,
                  arrays, now.result.sides);
-  std::vector<ConstrainedPiece> pieces = pieces_of(hull, name_of_place, now.constraint_ids);
+  const std::vector<ConstrainedPiece> pieces = pieces_of(hull, name_of_place, now.constraint_ids);
   const bool has_pieces = !pieces.empty();
-  sort_by_ends(pieces, points.size());
-  list_edges(pieces, nullptr, now.result);
+  list_edges({{}, {}, pieces}, points.size(), nullptr, now.result);
   Sites sites(std::move(points));
   const Options options = {Model::projected, sphere};
   if (has_pieces) {

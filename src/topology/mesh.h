@@ -30,6 +30,12 @@ using Halfedge = Index;
 inline constexpr std::array<unsigned, 3> next_corner = {1, 2, 0};
 inline constexpr std::array<unsigned, 3> previous_corner = {2, 0, 1};
 
+// Which of three corners this one is, of which it is one. Without branches: nothing predicts it.
+inline unsigned corner_of(const std::array<Index, 3>& corners, Index vertex) {
+  return static_cast<unsigned>(corners[1] == vertex) +
+         2 * static_cast<unsigned>(corners[2] == vertex);
+}
+
 inline Halfedge halfedge(Index face, unsigned edge) { return 3 * face + edge; }
 inline Index face_of(Halfedge h) { return h / 3; }
 inline unsigned edge_of(Halfedge h) { return h % 3; }

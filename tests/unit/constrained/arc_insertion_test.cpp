@@ -77,6 +77,7 @@ Insertion inserted(const std::vector<Point>& sites, int num_lies) {
   api::Parts built = api::build_parts(sites, job);
   const auto num_faces = static_cast<Index>(built.arrays.faces.size());
   ConstrainedFaces faces(sites, built, {}, 1);
+  faces.number_by_rank(1);
   LyingFaces lying{faces, num_lies};
   constrained::ArcInsertion<LyingFaces> insertion;
   const auto crossed = insertion.insert(lying, faces.vertex_of(0), faces.vertex_of(1),

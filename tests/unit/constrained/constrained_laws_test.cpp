@@ -259,6 +259,52 @@ TEST(constrained_laws, hold_for_stars_and_rows) {
   expect_laws(rows, {{0, 1}}, random);
 }
 
+// Closed lines of sites that follow each other, a ring that meets all of them, and few sites elsewhere,
+// without which no site is on the other half of the sphere: nearly all constraints are edges.
+TEST(constrained_laws, hold_for_coasts) {
+  Random random(21);
+  for (const bool is_around : {true, false}) {
+    SCOPED_TRACE(is_around);
+    SiteSet coasts;
+    std::vector<Ends> constraints;
+    const auto add_line = [&](double x, double y, double radius, Index size) {
+      const auto first = static_cast<Index>(coasts.sites.size());
+      for (Index i = 0; i < size; ++i) {
+        const double turn = 6.283185307179586 * (i + 0.3 * random.unit()) / size;
+        const double r = radius * (1 + 0.02 * random.unit());
+        coasts.sites.push_back({x + r * std::cos(turn), y + r * std::sin(turn), 1});
+        const Ends side = {first + i, first + (i + 1) % size};
+        constraints.push_back(random.coin() ? side : Ends{side[1], side[0]});
+      }
+    };
+    for (int k = 0; k < 6; ++k) add_line(k % 3 * 0.5 - 0.5, k / 3 * 0.5, 0.2, 700);
+    add_line(0, 0.25, 1.2, 90);
+    // Sides that are far longer than what is beside them.
+    const auto last = static_cast<Index>(coasts.sites.size() - 1);
+    for (int k = 0; k < 60; ++k) {
+      coasts.sites.push_back({1.5 * random.unit() - 0.75, 0.8 + 0.01 * random.unit(), 1});
+    }
+    for (Index i = last - 80; i < last - 10; i += 7) constraints.push_back({i, i + 2});
+    if (is_around) {
+      for (int k = 0; k < 40; ++k) {
+        coasts.sites.push_back({random.unit() - 0.5, random.unit() - 0.5, -0.6});
+      }
+    }
+    std::vector<Ends> free;
+    for (const Ends& e : constraints) {
+      const bool is_free =
+          std::ranges::none_of(free, [&](const Ends& f) { return do_cross(coasts, e, f); });
+      if (is_free && has_arc(coasts, e)) free.push_back(e);
+    }
+    EXPECT_GT(free.size(), std::size_t{4'200});
+    expect_laws(coasts, free, random);
+    free.push_back(free.front());
+    const auto twice = constrained_delaunay(coasts.sites, free, {});
+    EXPECT_EQ(twice.sources.values.size(), twice.edges.size() + 1);
+    expect_paths(twice, free);
+  }
+}
+
 // A constraint between two arcs of spirals, along which each face cuts off one site; with dents, more
 // and more of which are reflex.
 TEST(constrained_laws, hold_between_curves) {
