@@ -69,7 +69,9 @@ struct DomainTriangles {
   /// features in another order give the same arrays. `sites` and `sources` are empty.
   RefinedMesh mesh;
   std::vector<FeatureOfEdge> features;  ///< of each of `mesh.edges`
-  double filled_area = 0;           ///< by how much `fill_narrow` made it smaller, in steradians
+  /// The area of the water that `fill_narrow` made land, in steradians; never negative. Land that
+  /// became water where new coasts are simplified is not subtracted.
+  double filled_area = 0;
   std::size_t num_small_parts = 0;  ///< parts that were smaller than wanted
 };
 

@@ -305,23 +305,27 @@ class TrianglesOfDomain {
     append(all_, 0, end_of_area_, borders);
     all_ = std::move(borders);
     if (lines.size() > 0) triangulate();
-    const double area = area_of_mesh();
+    const CellRings before = polygon_of_mesh();
+    bool is_filled = false;
     std::vector<Point> new_corners;
     for (int k = 0; k < most_times; ++k) {
       const auto wider = meshing::without_narrow_water(
           refined_by_angles(), *options_.refine.spacing, options_.fill_narrow);
       if (!wider) break;
+      is_filled = true;
       take(wider->domain);
       new_corners.insert(new_corners.end(), wider->new_corners.begin(), wider->new_corners.end());
       std::ranges::sort(new_corners, exact::is_less);
       simplify_at(new_corners);
       triangulate();
     }
+    const double area =
+        is_filled ? meshing::area_without(before, polygon_of_mesh(), execution_) : 0;
     if (lines.size() > 0) {
       append(lines, all_);
       triangulate();
     }
-    return area - area_of_mesh();
+    return area;
   }
 
   [[nodiscard]] std::array<Point, 3> corners_of(Index face) const {
@@ -330,12 +334,13 @@ class TrianglesOfDomain {
     return {points[a], points[b], points[c]};
   }
   [[nodiscard]] double area_of(Index face) const { return map::area_on_left(corners_of(face)); }
-  [[nodiscard]] double area_of_mesh() const {
-    double area = 0;
+  [[nodiscard]] CellRings polygon_of_mesh() const {
+    const Triangulation& all = triangulation_.triangulation;
+    std::vector<Triple> triangles;
     for (Index f = 0; f < regions_.size(); ++f) {
-      if (regions_[f] != no_index) area += area_of(f);
+      if (regions_[f] != no_index) triangles.push_back(all.faces()[f]);
     }
-    return area;
+    return meshing::polygon_of(all.sites().points(), triangles);
   }
 
   // Leaves parts of the mesh out that are too small, and returns their number.

@@ -16,6 +16,8 @@
 #include "exact/vector.h"
 #include "meshing/mesh_border.h"
 #include "rondel/error.h"
+#include "rondel/regions.h"
+#include "rondel/set_operations.h"
 
 namespace rondel::meshing {
 namespace {
@@ -258,6 +260,23 @@ class NarrowWater {
 std::optional<WiderDomain> without_narrow_water(const mesh::DomainTriangles& made,
                                                 const mesh::SizeFunction& spacing, double share) {
   return NarrowWater(made).run(spacing, share);
+}
+
+CellRings polygon_of(std::span<const Point> points, std::span<const Triple> triangles) {
+  CellRings result;
+  result.points.assign(points.begin(), points.end());
+  for (const std::vector<Index>& loop : loops_of(points, border_of(points.size(), triangles))) {
+    result.append_ring(loop);
+  }
+  result.end_cell();
+  return result;
+}
+
+double area_without(const CellRings& before, const CellRings& after, const Execution& execution) {
+  const CellRings lost = combine(before, after, SetOperation::difference, execution);
+  double area = 0;
+  for (const double part : areas(lost)) area += part;
+  return area;
 }
 
 }  // namespace rondel::meshing

@@ -9,9 +9,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "rondel/cell_rings.h"
 #include "rondel/mesh_triangles.h"
+#include "rondel/types.h"
 
 namespace rondel::meshing {
 
@@ -27,5 +30,12 @@ struct WiderDomain {
 // InvalidInput if nothing is left.
 std::optional<WiderDomain> without_narrow_water(const mesh::DomainTriangles& made,
                                                 const mesh::SizeFunction& spacing, double share);
+
+// Returns triangles as one polygon: the rings of their border.
+CellRings polygon_of(std::span<const Point> points, std::span<const Triple> triangles);
+
+// Returns the area in steradians of what is in the first polygon and not in the second one: never
+// negative, even where the second one is larger, as a coast that was simplified may make it.
+double area_without(const CellRings& before, const CellRings& after, const Execution& execution);
 
 }  // namespace rondel::meshing
