@@ -8,6 +8,8 @@
 
 #include "mesh_spacing.h"
 #include "report.h"
+#include "rondel/error.h"
+#include "validate.h"
 
 namespace rondel::cli {
 namespace {
@@ -50,15 +52,40 @@ mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job) {
   return mesh;
 }
 
+CLI::Option* add_least_depth_option(CLI::App& parser, std::optional<double>& least_depth) {
+  return parser
+      .add_option("--least-depth", least_depth,
+                  "Metres that each node has at least, as models need at coasts, where files\n"
+                  "have heights of land (default: depths as they are, which FESOM refuses if\n"
+                  "one is negative)")
+      ->check(finite_error)
+      ->type_name("M");
+}
+
+void require_least_depth(const std::optional<double>& least_depth, const std::string& source,
+                         mesh::TriangleMesh& mesh) {
+  if (!least_depth) return;
+  std::size_t number = 0;
+  try {
+    number = mesh::deepen(mesh, *least_depth);
+  } catch (const InvalidInput& error) {
+    throw FileError(source + ": --least-depth: " + error.what());
+  }
+  if (number == 0) return;
+  tell(source, {"--least-depth: " + count(number, "node is", "nodes are") + " less deep in it"});
+}
+
 void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,
                         const mesh::TriangleMesh& mesh, const std::string& source, Job& job) {
+  std::vector<std::string> remarks;
   job.time(Stage::write, [&] {
     try {
-      mesh::write_triangle_mesh(common.target(), mesh, netcdf, job.execution());
+      mesh::write_triangle_mesh(common.target(), mesh, netcdf, job.execution(), &remarks);
     } catch (const InvalidInput& error) {
       throw FileError(source + ": " + error.what());
     }
   });
+  tell(common.output, remarks);
   tell_of_pinched(source, mesh);
 }
 

@@ -10,7 +10,9 @@
 /// index nodes and triangles from 0; from 1 where a message names them as files do
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,15 @@ bool has_triangles_alone(const CommonOptions& common);
 /// Reads a mesh of triangles, and tells what was left out of it. \throws FileError
 mesh::TriangleMesh read_triangles_of(const CommonOptions& common, Job& job);
 
-/// Writes OUTPUT, and tells of nodes that models refuse. \throws FileError with the name of the file
+/// Adds --least-depth.
+CLI::Option* add_least_depth_option(CLI::App& parser, std::optional<double>& least_depth);
+/// Makes nodes as deep as --least-depth wants them, if it is given, and tells how many were not.
+/// \throws FileError with the name of the file if the mesh has no depths
+/// \param source  the file that the depths are from
+void require_least_depth(const std::optional<double>& least_depth, const std::string& source,
+                         mesh::TriangleMesh& mesh);
+
+/// Writes OUTPUT, and tells what its format does not hold, and of nodes that models refuse. \throws FileError with the name of the file
 /// that the triangles are from
 /// \param source  that file
 void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,

@@ -8,6 +8,7 @@
 // index cells, or nodes and triangles, in the order of the input
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 
 #include "mesh_output.h"
 #include "report.h"
@@ -20,6 +21,7 @@ namespace {
 struct MeshConvertOptions {
   MeshOutput written;  // INPUT: sites or a mesh
   bool allow_zero_edges = false;
+  std::optional<double> least_depth;
 };
 
 // True if triangles are written: in a format of ocean models, or as netCDF where INPUT has triangles.
@@ -41,7 +43,8 @@ mesh::TriangleMesh triangles_of_sites(const CommonOptions& common, Job& job) {
 }
 
 // Reads triangles, or makes those of sites, and writes them. Throws FileError.
-ExitStatus convert_triangles(const MeshOutput& written) {
+ExitStatus convert_triangles(const MeshConvertOptions& options) {
+  const MeshOutput& written = options.written;
   const CommonOptions& common = written.common;
   require_output(common, mesh::can_write_triangle_mesh(common.target()),
                  std::string(triangle_mesh_endings) + " .nc ugrid", {},
@@ -51,6 +54,7 @@ ExitStatus convert_triangles(const MeshOutput& written) {
   mesh::TriangleMesh mesh =
       is_mesh ? read_triangles_of(common, job) : triangles_of_sites(common, job);
   if (written.radius) set_radius(mesh, *written.radius);
+  require_least_depth(options.least_depth, common.input, mesh);
   write_triangles_of(common, written.netcdf, mesh, common.input, job);
   nlohmann::ordered_json json = json_of_triangles(mesh);
   const Seconds seconds = job.seconds();
@@ -64,7 +68,7 @@ ExitStatus convert_triangles(const MeshOutput& written) {
 // --allow-zero-edges is given, and for sites that do not surround the center.
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   const MeshOutput& written = options.written;
-  if (are_triangles(written.common)) return convert_triangles(written);
+  if (are_triangles(written.common)) return convert_triangles(options);
   require_mesh_output(written, MeshOutputKind::mesh_or_triangles);
   Job job(written.common);
   const mesh::VoronoiMesh arrays =
@@ -90,6 +94,9 @@ Command add_mesh_convert_command(CLI::App& group) {
         written.common, parser->get_option(name),
         [&written] { return !are_triangles(written.common); }, "on triangles");
   }
+  require_effect(
+      written.common, add_least_depth_option(*parser, options->least_depth),
+      [&written] { return are_triangles(written.common); }, "on cells");
   add_threads_option(*parser, written.common);
   add_report_options(*parser, written.common);
   parser->footer(
@@ -107,7 +114,7 @@ Command add_mesh_convert_command(CLI::App& group) {
       "  rondel mesh convert sites.npy -o mesh.nc --format ugrid\n"
       "  rondel mesh convert mesh.nc -o mesh.exo\n"
       "  rondel mesh convert fort.14 -o hgrid.gr3\n"
-      "  rondel mesh convert hgrid.gr3 -o mesh --format fesom");
+      "  rondel mesh convert hgrid.gr3 --least-depth 5 -o mesh --format fesom");
   return {parser, [options] { return run_mesh_convert(*options); }};
 }
 

@@ -91,15 +91,15 @@ std::vector<Point> corners_of_area(const mesh::MeshDomain& domain) {
   return corners;
 }
 
-// Returns the depths at the nodes of --depth or --elevation.
-std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<const Point> nodes,
-                              const Execution& execution) {
+// Gives the nodes their depths of --depth or --elevation.
+void set_depths(const MeshTrianglesOptions& options, mesh::TriangleMesh& mesh,
+                const Execution& execution) {
   const bool is_up = options.depth.empty();
   const auto [file, name] = split_at_colon(is_up ? options.elevation : options.depth);
   std::vector<std::string> remarks;
-  std::vector<double> depths =
-      mesh::read_heights({file, {}}, name, is_up ? mesh::Positive::up : mesh::Positive::down, nodes,
-                         execution, &remarks);
+  std::vector<double>& depths = mesh.depths;
+  depths = mesh::read_heights({file, {}}, name, is_up ? mesh::Positive::up : mesh::Positive::down,
+                              mesh.points, execution, &remarks);
   const auto is_other = [&](double value) { return is_up ? value > 0 : value < 0; };
   if (!depths.empty() && std::ranges::all_of(depths, is_other)) {
     remarks.emplace_back(is_up ? "--elevation: all nodes are above the sea; --depth reads depths"
@@ -109,15 +109,7 @@ std::vector<double> depths_of(const MeshTrianglesOptions& options, std::span<con
   if (is_up) {
     for (double& depth : depths) depth = depth == 0 ? 0 : -depth;
   }
-  if (options.least_depth) {
-    const auto number = static_cast<std::size_t>(
-        std::ranges::count_if(depths, [&](double depth) { return depth < *options.least_depth; }));
-    for (double& depth : depths) depth = std::max(depth, *options.least_depth);
-    if (number > 0) {
-      tell(file, {"--least-depth: " + count(number, "node is", "nodes are") + " less deep in it"});
-    }
-  }
-  return depths;
+  require_least_depth(options.least_depth, file, mesh);
 }
 
 // Returns the mesh with the border that its edges have, and its depths.
@@ -125,7 +117,7 @@ mesh::TriangleMesh mesh_of(const mesh::DomainTriangles& made, const MeshTriangle
                            const Execution& execution) {
   mesh::TriangleMesh result = mesh::triangle_mesh(made);
   if (!options.depth.empty() || !options.elevation.empty()) {
-    result.depths = depths_of(options, result.points, execution);
+    set_depths(options, result, execution);
   }
   return result;
 }
@@ -290,14 +282,7 @@ Command add_mesh_triangles_command(CLI::App& group) {
   parser->add_option("--elevation", options->elevation, "The same, for heights above the sea")
       ->excludes(depth)
       ->type_name("FILE");
-  CLI::Option* const least =
-      parser
-          ->add_option("--least-depth", options->least_depth,
-                       "Metres that each node has at least, as models need at coasts, where files\n"
-                       "have heights of land (default: depths as they are, which FESOM refuses if\n"
-                       "one is negative)")
-          ->check(finite_error)
-          ->type_name("M");
+  CLI::Option* const least = add_least_depth_option(*parser, options->least_depth);
   require_effect(
       options->common, least,
       [given = options.get()] { return !given->depth.empty() || !given->elevation.empty(); },

@@ -47,15 +47,18 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 ///    they have.
 /// 2. What a format cannot hold is left out: ADCIRC's numbers in all but ADCIRC's and SCHISM's files
 ///    and UGRID; `levels` in all but FESOM's; kinds and order of segments in FESOM's, which marks
-///    the nodes of the border. Open segments come first in ADCIRC's and SCHISM's files.
+///    the nodes of the border. `remarks` say what of the mesh is lost so: levels, types, open
+///    segments. Open segments come first in ADCIRC's and SCHISM's files.
 /// 3. Where depths are needed and the mesh has none, they are 0. FESOM needs at least three levels:
 ///    without levels they are 0, half of the largest depth, and the largest depth.
+/// \param remarks  gets a sentence for all that the format does not hold
 /// \throws InvalidInput as require_valid() does; (the position of the triangle) if one has no area in
 ///         degrees all the same; for FESOM (the node) if a depth is negative
 /// \throws FileError for other endings, and if the system refuses
 RONDEL_API void write_triangle_mesh(const FileName& file, const TriangleMesh& mesh,
                                     const NetcdfOptions& netcdf = {},
-                                    const Execution& execution = {});
+                                    const Execution& execution = {},
+                                    std::vector<std::string>* remarks = nullptr);
 
 /// Reads a mesh of triangles: what write_triangle_mesh() wrote is read back bit by bit.
 ///

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -111,6 +112,11 @@ triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
 ///         arrays whose lengths do not fit; for numbers that are not finite, points at the center,
 ///         and latitudes beyond a pole; and for what breaks 1 or 2
 RONDEL_API void require_valid(const TriangleMesh& mesh);
+
+/// Makes nodes deeper that are less deep than so many metres, as models need at coasts, and returns
+/// their number.
+/// \throws InvalidInput if the mesh has no depths, or the least depth is not finite
+RONDEL_API std::size_t deepen(TriangleMesh& mesh, double least_depth);
 
 /// The measures on which the time step and the errors of a model depend.
 struct TriangleQuality {

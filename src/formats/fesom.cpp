@@ -6,6 +6,7 @@
 // the number of levels, their heights and the height of the ground at each node, which are negative.
 // FESOM takes heights above 0 as depths.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -102,6 +103,26 @@ void remark_on_coast(const std::vector<bool>& is_coast, MeshInFile& file) {
                          "is that of the triangles");
 }
 
+// Adds a remark that names files which say more of levels and depths than those that are read.
+void remark_on_other_files(const std::string& folder, MeshInFile& file) {
+  constexpr std::array<const char*, 9> others = {"cavity_depth@elem.out",
+                                                 "cavity_depth@node.out",
+                                                 "cavity_elvls.out",
+                                                 "cavity_nlvls.out",
+                                                 "depth@elem.out",
+                                                 "depth@node.out",
+                                                 "depth_zlev.out",
+                                                 "elvls.out",
+                                                 "nlvls.out"};
+  std::string found;
+  for (const char* const name : others) {
+    std::error_code error;
+    if (!std::filesystem::exists(folder + name, error)) continue;
+    found += (found.empty() ? "" : ", ") + std::string(name);
+  }
+  if (!found.empty()) file.remarks.push_back("left out, as they are no part of the mesh: " + found);
+}
+
 }  // namespace
 
 void read_fesom(const std::string& folder, MeshInFile& file) {
@@ -126,6 +147,7 @@ void read_fesom(const std::string& folder, MeshInFile& file) {
     }
   });
   remark_on_coast(is_coast, file);
+  remark_on_other_files(folder, file);
 }
 
 void write_fesom(const std::string& folder, const MeshOfFile& mesh) {
@@ -134,7 +156,7 @@ void write_fesom(const std::string& folder, const MeshOfFile& mesh) {
     if (arrays.depths[i] >= 0) continue;
     throw InvalidInput("node " + std::to_string(i + 1) +
                            " (from 1) has a negative depth, which FESOM would take for a depth "
-                           "below the sea; mesh triangles --least-depth makes such nodes deeper",
+                           "below the sea; --least-depth makes such nodes deeper",
                        i);
   }
   std::vector<bool> is_coast(arrays.points.size());

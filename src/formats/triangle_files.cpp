@@ -4,6 +4,7 @@
 // read_triangle_mesh() and write_triangle_mesh() pick the format of a mesh of triangles.
 #include "rondel/triangle_files.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -102,6 +103,27 @@ void read_into(const FileName& name, formats::MeshInFile& file) {
   });
 }
 
+// Returns what of a mesh a format does not hold. FESOM's alone has levels, and no segments.
+std::vector<std::string> lost_in(bool is_fesom, bool has_types, const TriangleMesh& mesh) {
+  std::vector<std::string> remarks;
+  if (!is_fesom && !mesh.levels.empty()) {
+    remarks.push_back("the " + std::to_string(mesh.levels.size()) +
+                      " levels are left out, which files of FESOM alone have");
+  }
+  const auto has_type = [](const BoundarySegment& one) { return one.type.has_value(); };
+  if (!has_types && std::ranges::any_of(mesh.boundary, has_type)) {
+    remarks.emplace_back(
+        "the types of segments (IBTYPE) are left out, which files of ADCIRC, SCHISM and UGRID "
+        "have");
+  }
+  const auto is_open = [](const BoundarySegment& one) { return one.kind == BoundaryKind::open; };
+  if (is_fesom && std::ranges::any_of(mesh.boundary, is_open)) {
+    remarks.emplace_back(
+        "open segments are left out: FESOM takes all nodes of the border for coast");
+  }
+  return remarks;
+}
+
 }  // namespace
 
 bool is_triangle_mesh_file(const FileName& file) {
@@ -131,14 +153,19 @@ bool can_write_triangle_mesh(const FileName& file) {
 }
 
 void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
-                         const NetcdfOptions& netcdf, const Execution& execution) {
+                         const NetcdfOptions& netcdf, const Execution& execution,
+                         std::vector<std::string>* remarks) {
   const system::Call call(execution);
   require_valid(mesh);
   const bool is_in_space = is_gmsh(name);
   const formats::MeshOfFile content = {
       mesh, is_in_space ? std::vector<LonLat>() : meshing::sound_positions(mesh), execution};
-  if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
   const OceanFormat* const format = ocean_format(name);
+  if (remarks != nullptr) {
+    const bool has_types = format == nullptr || format->write == &formats::write_gr3;
+    *remarks = lost_in(is_fesom(name), !is_fesom(name) && has_types, mesh);
+  }
+  if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
   if (format == nullptr && !is_ugrid_file(name)) {
     io::throw_unknown_ending(
         name, "meshes of triangles are written as",

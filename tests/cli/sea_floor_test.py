@@ -107,10 +107,17 @@ class DirectionsOfHeights(Files):
         self.assertRegex(text, r"node \d+ \(from 1\) has a negative depth, .* --least-depth makes such nodes deeper\n")
         status, text = self.run_tool(*arguments, "--least-depth", "5", "-o", "f", "--format", "fesom")
         self.assertEqual(status, 0)
-        self.assertRegex(text, r"\Arondel: f.nc: --least-depth: \d+ nodes are less deep in it\n\Z")
+        self.assertRegex(text, r"\Arondel: f.nc: --least-depth: \d+ nodes are less deep in it\n"
+                               r"rondel: f: open segments are left out: FESOM takes all nodes of the border for coast\n\Z")
+        self.assertEqual(self.run_tool(*arguments, "-o", "as-it-is.14"), (0, ""))
         for least in ("5", "-2"):
             self.assertEqual(self.run_tool(*arguments, "--least-depth", least, "-o", "d.14")[0], 0)
             depths = self.depths_in("d.14")
+            status, text = self.run_tool("mesh", "convert", "as-it-is.14", "--least-depth", least, "-o", "c.14", "--quiet")
+            number = sum(depth < float(least) for depth in self.depths_in("as-it-is.14"))
+            self.assertEqual((status, text),
+                             (0, f"rondel: as-it-is.14: --least-depth: {number} nodes are less deep in it\n"))
+            self.assertEqual((self.folder / "c.14").read_bytes(), (self.folder / "d.14").read_bytes())
             self.assertEqual(min(depths), float(least))
             self.assertGreater(max(depths), 50)
         self.assertEqual(self.run_tool(*arguments, "--least-depth", "-90", "-o", "d.14"), (0, ""))

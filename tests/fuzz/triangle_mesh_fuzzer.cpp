@@ -62,6 +62,11 @@ void use_mesh(const TriangleMesh& mesh) {
   const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
   require(quality.shortest_edge <= quality.longest_edge && quality.smallest_angle_deg < 60.01,
           "no triangle has larger angles alone");
+  if (!mesh.depths.empty()) {
+    mesh::TriangleMesh deep = mesh;
+    mesh::deepen(deep, 5);
+    require(mesh::deepen(deep, 5) == 0 && std::ranges::min(deep.depths) >= 5, "depths");
+  }
   for (const char* format : mesh_formats) expect_the_same_again(mesh, format);
   const FileName folder(std::string(".rondel-fuzz-fesom-not-there/") + "x", "ply");
   require(!mesh::can_write_triangle_mesh(folder) && !mesh::is_triangle_mesh_file(folder),

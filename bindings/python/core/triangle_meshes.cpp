@@ -104,11 +104,14 @@ std::tuple<TriangleMesh, std::vector<std::string>> triangles_of_file(const std::
   return {std::move(mesh), std::move(remarks)};
 }
 
-void write_triangle_file(const TriangleMesh& mesh, const std::string& path,
-                         const std::string& format, unsigned threads) {
+// Returns what the file does not hold.
+std::vector<std::string> write_triangle_file(const TriangleMesh& mesh, const std::string& path,
+                                             const std::string& format, unsigned threads) {
+  std::vector<std::string> remarks;
   run_watched(mesh.points.size(), threads, nb::none(), [&](const Execution& execution) {
-    mesh::write_triangle_mesh(file_of(path, format), mesh, {}, execution);
+    mesh::write_triangle_mesh(file_of(path, format), mesh, {}, execution, &remarks);
   });
+  return remarks;
 }
 
 // Fills a domain with triangles; a null area is the sphere. Returns the mesh, and the number of

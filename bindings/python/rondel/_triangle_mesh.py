@@ -212,6 +212,11 @@ class TriangleMesh:
         InvalidInput
             If a depth is negative and the format is 'fesom'.
 
+        Warns
+        -----
+        UserWarning
+            If the format does not hold levels, types or open segments of the mesh.
+
         Examples
         --------
         >>> import os, tempfile
@@ -224,7 +229,9 @@ class TriangleMesh:
         array([5., 6., 7.])
 
         """
-        self._arrays.write(as_name(path), format or "", as_threads(threads))
+        name = as_name(path)
+        for remark in self._arrays.write(name, format or "", as_threads(threads)):
+            warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
 
     def to_meshio(self) -> meshio.Mesh:
         """Returns a mesh of meshio, which has to be installed.

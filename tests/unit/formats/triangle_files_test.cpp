@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -116,6 +117,66 @@ TEST(triangle_files, of_fesom_come_back_bit_by_bit) {
             }),
             5U);
   EXPECT_FALSE(std::filesystem::exists(folder.file("new")));
+}
+
+// What a mesh lacks when it is read again is what the writer told.
+TEST(triangle_files, tell_what_they_do_not_hold) {
+  const TemporaryDirectory folder;
+  for (const TriangleMesh& mesh : {arctic_mesh(4), global_mesh(5), typed_mesh()}) {
+    for (const char* const format : {"msh", "gmsh2", "14", "gr3", "2dm", "ugrid", "fesom"}) {
+      SCOPED_TRACE(format);
+      const FileName file = {folder.file(format), format};
+      Remarks remarks = {"old"};
+      mesh::write_triangle_mesh(file, mesh, {}, {}, &remarks);
+      const TriangleMesh read = mesh::read_triangle_mesh(file);
+      const auto is_told = [&](const std::string& word) {
+        return std::ranges::any_of(remarks, [&](const std::string& remark) {
+          return remark.find(word) != std::string::npos;
+        });
+      };
+      const auto num_open = [](const TriangleMesh& any) {
+        return std::ranges::count(any.boundary, BoundaryKind::open, &BoundarySegment::kind);
+      };
+      const auto num_types = [](const TriangleMesh& any) {
+        return std::ranges::count_if(any.boundary,
+                                     [](const auto& one) { return one.type.has_value(); });
+      };
+      EXPECT_EQ(is_told("levels"), read.levels != mesh.levels);
+      EXPECT_EQ(is_told("IBTYPE"), num_types(read) != num_types(mesh));
+      EXPECT_EQ(is_told("open segments"), num_open(read) != num_open(mesh));
+      EXPECT_FALSE(is_told("old"));
+    }
+  }
+}
+
+TEST(triangle_files, of_fesom_name_files_that_are_left_out) {
+  const TemporaryDirectory folder;
+  const TriangleMesh mesh = arctic_mesh(6);
+  mesh::write_triangle_mesh({folder.file("a"), "fesom"}, mesh);
+  for (const char* const name : {"a/nlvls.out", "a/elvls.out", "a/edges.out"}) {
+    static_cast<void>(folder.with(name, "1\n"));
+  }
+  Remarks remarks;
+  static_cast<void>(mesh::read_triangle_mesh(folder.file("a"), {}, &remarks));
+  EXPECT_EQ(remarks, Remarks{"left out, as they are no part of the mesh: elvls.out, nlvls.out"});
+}
+
+TEST(triangle_mesh, becomes_as_deep_as_wanted) {
+  TriangleMesh mesh = arctic_mesh(6);
+  mesh.depths.front() = -3;
+  const std::vector<double> before = mesh.depths;
+  std::vector<double> sorted = before;
+  std::ranges::sort(sorted);
+  const double least = sorted[sorted.size() / 3];
+  EXPECT_EQ(mesh::deepen(mesh, least),
+            static_cast<std::size_t>(std::ranges::lower_bound(sorted, least) - sorted.begin()));
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_EQ(mesh.depths[i], before[i] < least ? least : before[i]);
+  }
+  EXPECT_EQ(mesh::deepen(mesh, least), 0U);
+  EXPECT_THROW(mesh::deepen(mesh, std::numeric_limits<double>::quiet_NaN()), InvalidInput);
+  mesh.depths.clear();
+  EXPECT_THROW(mesh::deepen(mesh, 1), InvalidInput);
 }
 
 TEST(triangle_files, of_points_without_degrees_have_those_of_lonlats_or_shorter_ones) {
