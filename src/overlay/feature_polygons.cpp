@@ -634,8 +634,11 @@ void divide_faults(std::vector<std::string> faults, const map::PolygonFeatures& 
 
 }  // namespace
 
-ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
-                                     const Execution& execution) {
+namespace {
+
+// Converts features, and repairs them if that is wanted.
+ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOptions& options,
+                               const Execution& execution) {
   const auto converted = [&](std::span<const CheckedFeature> checked) {
     FeatureCells make(features, options, checked, execution);
     CellRings cells = make();
@@ -657,6 +660,18 @@ ConvertedFeatures converted_features(map::PolygonFeatures& features, const Polyg
       std::tie(features.rings, features.lines) = given;
     }
   }
+}
+
+}  // namespace
+
+ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
+                                     const Execution& execution) {
+  // Conversion divides sides, and tells some to go the shorter way.
+  std::vector<LongSide> sides;
+  if (options.edges == PolygonEdges::lonlat) sides = long_sides(features);
+  ConvertedFeatures result = with_repairs(features, options, execution);
+  tell_of_long_sides(sides, features, result.facts);
+  return result;
 }
 
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,

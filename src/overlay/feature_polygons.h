@@ -56,6 +56,22 @@ std::vector<std::string> faults_of_features(const map::PolygonFeatures& features
 // between two sides along meridians as a side of a box is.
 std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 
+// A side that spans more than 180 degrees of longitude and less than a turn, not at a pole.
+struct LongSide {
+  std::size_t feature;
+  std::size_t ring;
+  LonLat from, to;
+};
+
+// Returns the sides of features that go the long way around the globe, as a box does that was meant
+// to cross the antimeridian.
+std::vector<LongSide> long_sides(const map::PolygonFeatures& features);
+
+// Adds a remark to each file whose polygons have such sides. Those of rings that were told to go the
+// shorter way are none.
+void tell_of_long_sides(const std::vector<LongSide>& sides, const map::PolygonFeatures& features,
+                        std::vector<CellFacts>& facts);
+
 // Adds corners to neighboring features where only one of them has a corner on their common border.
 //
 // Inserts corners into sides of rings: those of other features and of lines that lie on the side up

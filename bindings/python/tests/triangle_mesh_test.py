@@ -52,6 +52,16 @@ def test_files_come_back(mesh, ending, tmp_path):
     assert {segment.kind for segment in mesh.boundary} == {"open", "land", "island"}
 
 
+def test_what_files_do_not_hold_is_told(mesh, tmp_path):
+    levels = TriangleMesh(mesh.lonlat, mesh.triangles, depths=mesh.depths, levels=[0, 10, 9000])
+    with pytest.warns(UserWarning, match="the 3 levels are left out"):
+        levels.write(tmp_path / "mesh.gr3")
+    assert read_triangles(tmp_path / "mesh.gr3").levels is None
+    with pytest.warns(UserWarning, match="open segments are left out"):
+        mesh.write(tmp_path / "mesh", format="fesom")
+    assert "open" not in {segment.kind for segment in read_triangles(tmp_path / "mesh").boundary}
+
+
 def test_fesom_is_a_folder(mesh, tmp_path):
     levels = TriangleMesh(mesh.lonlat, mesh.triangles, depths=mesh.depths, levels=[0, 10, 9000])
     levels.write(tmp_path / "mesh", format="fesom")

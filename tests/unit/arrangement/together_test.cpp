@@ -362,6 +362,40 @@ TEST(together, faults_are_told_of_their_file) {
   EXPECT_TRUE(read_features_together({}).empty());
 }
 
+// A box that should cross the antimeridian is the rest of its zone. The areas tell which one was read.
+TEST(together, sides_that_go_the_long_way_are_told) {
+  const TemporaryDirectory folder;
+  const auto read = [&](const std::string& west, const std::string& east, PolygonEdges edges) {
+    const auto ring = [](const std::string& w, const std::string& e) {
+      return "[[[" + w + ",-10],[" + e + ",-10],[" + e + ",10],[" + w + ",10],[" + w + ",-10]]]";
+    };
+    const std::string file = folder.with(
+        "boxes.geojson", R"({"type":"FeatureCollection","features":[{"type":"Feature",)"
+                         R"("properties":{},"geometry":{"type":"Polygon","coordinates":)" +
+                             ring("0", "5") +
+                             R"(}},{"type":"Feature","properties":{"name":"Fiji"},)"
+                             R"("geometry":{"type":"Polygon","coordinates":)" +
+                             ring(west, east) + "}}]}");
+    return read_features_together(std::array{FileName{file, {}}}, {.edges = edges}).front();
+  };
+  const double zone = 4 * std::numbers::pi * std::sin(10 * std::numbers::pi / 180);
+  for (const auto& [west, east] :
+       {std::array{170, -170}, {-170, 170}, {170, 190}, {-180, 180}, {-90, 90}, {-100, 100}}) {
+    const FeatureTable table =
+        read(std::to_string(west), std::to_string(east), PolygonEdges::lonlat);
+    const double degrees = areas(table.polygons)[1] / zone * 360;
+    EXPECT_NEAR(degrees, std::abs(east - west), 0.01) << west;
+    const bool is_long = degrees > 180.1 && degrees < 359.9;
+    ASSERT_EQ(table.facts.remarks.size(), is_long ? 1U : 0U) << west;
+    if (!is_long) continue;
+    EXPECT_EQ(table.facts.remarks[0],
+              "feature 1 (Fiji): the side from " + std::to_string(west) + " -10 to " +
+                  std::to_string(east) + " -10 goes " + std::to_string(std::abs(east - west)) +
+                  " degrees of longitude, the long way around the globe, as does another side");
+  }
+  EXPECT_TRUE(read("170", "-170", PolygonEdges::geodesic).facts.remarks.empty());
+}
+
 TEST(together, sites_are_points) {
   const TemporaryDirectory folder;
   const std::string table =
