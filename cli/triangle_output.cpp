@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
+#include "column_values.h"
 #include "mesh_spacing.h"
 #include "report.h"
 #include "rondel/error.h"
@@ -87,6 +89,31 @@ void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf
   });
   tell(common.output, remarks);
   tell_of_pinched(source, mesh);
+}
+
+std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table) {
+  std::vector<double> depths;
+  std::string left_out;
+  const bool has_all = !table.columns.empty() &&
+                       table.columns.front().ends.size() == table.sites.size() &&
+                       mesh::can_write_triangle_mesh(common.target());
+  for (const std::string& name : value_columns(table, common.read)) {
+    const bool are_depths = name == "depth" || name == "Depth" || name == "DEPTH";
+    if (are_depths && has_all && depths.empty()) {
+      depths = column_values(table, name, "--output");
+    } else {
+      left_out += (left_out.empty() ? "" : ", ") + name;
+    }
+  }
+  const auto missing = std::ranges::find_if(depths, [](double depth) { return std::isnan(depth); });
+  if (missing != depths.end()) {
+    throw FileError(table.where(static_cast<std::size_t>(missing - depths.begin())) +
+                    ": the site has no depth");
+  }
+  if (!left_out.empty() && common.format() != "npy") {
+    tell(table.name, {"columns that the output does not have: " + left_out});
+  }
+  return depths;
 }
 
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh) {

@@ -51,6 +51,12 @@ void require_least_depth(const std::optional<double>& least_depth, const std::st
 void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,
                         const mesh::TriangleMesh& mesh, const std::string& source, Job& job);
 
+/// Returns the depths of sites: the column `depth` (Depth, DEPTH) of their table, if files of the
+/// format of OUTPUT have depths, and the table has a row for each site. Names in a remark the
+/// columns that are left out, unless OUTPUT is indices of sites.
+/// \throws FileError for a cell of that column that is no number
+std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table);
+
 /// Returns the numbers of nodes, triangles and segments.
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh);
 /// Returns the same for people: "5 nodes, 4 triangles; border: 1 open, 1 land, 0 island".

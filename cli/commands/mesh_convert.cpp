@@ -32,20 +32,23 @@ bool are_triangles(const CommonOptions& common) {
 // Returns the Delaunay triangles of sites. Throws FileError if there are none.
 mesh::TriangleMesh triangles_of_sites(const CommonOptions& common, Job& job) {
   const SiteTable table = job.read();
+  const std::vector<double> depths = depths_of_sites(common, table);
   const Triangulation triangulation = job.triangulate(table);
   std::vector<Triple> solid;
   for (Index f = 0; f < triangulation.num_faces(); ++f) {
     if (!triangulation.is_ghost(f)) solid.push_back(triangulation.faces()[f]);
   }
   if (solid.empty()) throw FileError(common.input + ": the sites have no triangles");
-  return with_places(table,
-                     [&] { return mesh::triangle_mesh(table.sites, table.positions, solid); });
+  return with_places(table, [&] {
+    return mesh::triangle_mesh(table.sites, table.positions, solid, std::nullopt, depths);
+  });
 }
 
 // Reads triangles, or makes those of sites, and writes them. Throws FileError.
-ExitStatus convert_triangles(const MeshConvertOptions& options) {
+ExitStatus convert_triangles(MeshConvertOptions options) {
   const MeshOutput& written = options.written;
   const CommonOptions& common = written.common;
+  options.written.common.read.keep_columns = true;
   require_output(common, mesh::can_write_triangle_mesh(common.target()),
                  std::string(triangle_mesh_endings) + " .nc ugrid", {},
                  {{"--report", written.report}, {"--graph", written.graph}});
@@ -108,7 +111,7 @@ Command add_mesh_convert_command(CLI::App& group) {
       "Triangles stay what they are: nodes, triangles, depths, and the border in open, land and\n"
       "island segments. netCDF in and triangles out is UGRID, and so is .nc of triangles; sites "
       "get\n"
-      "their Delaunay triangles.\n\n"
+      "their Delaunay triangles, and the depths of their column 'depth'.\n\n"
       "Examples:\n"
       "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"
       "  rondel mesh convert sites.npy -o mesh.nc --format ugrid\n"

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -133,7 +134,7 @@ void require_input(const TriangulateOptions& options) {
 // Writes solid faces as a mesh: those in `inside`, or all. Edges that are constraints are coast.
 void write_for_model(const CommonOptions& common, const Plan& plan,
                      const ConstrainedTriangulation& result, const std::vector<Index>* inside,
-                     Job& job) {
+                     std::span<const double> depths, Job& job) {
   const Triangulation& triangulation = result.triangulation;
   std::vector<Triple> triangles;
   for (Index f = 0; f < triangulation.num_faces(); ++f) {
@@ -143,13 +144,14 @@ void write_for_model(const CommonOptions& common, const Plan& plan,
   }
   if (triangles.empty()) throw FileError(plan.table.name + ": there are no triangles");
   const mesh::TriangleMesh mesh =
-      mesh::triangle_mesh(plan.table.sites, plan.table.positions, triangles, result.edges);
+      mesh::triangle_mesh(plan.table.sites, plan.table.positions, triangles, result.edges, depths);
   write_triangles_of(common, {}, mesh, plan.table.name, job);
 }
 
 // Throws FileError for files that cannot be read or written, and constraints that cross; UsageError.
-ExitStatus run_triangulate(const TriangulateOptions& options) {
+ExitStatus run_triangulate(TriangulateOptions options) {
   require_input(options);
+  options.common.read.keep_columns = !is_netcdf_file(options.common.source());
   Job job(options.common);
   Plan plan = plan_of(options, job);
   if (options.is_inside && plan.polygons.values.empty()) {
@@ -162,9 +164,11 @@ ExitStatus run_triangulate(const TriangulateOptions& options) {
     result = triangulated(options, plan, job.execution());
     if (options.is_inside) inside = faces_in_polygons(result, plan);
   });
+  const std::vector<double> depths = depths_of_sites(options.common, plan.table);
   const Triangulation& triangulation = result.triangulation;
   if (is_for_model(options.common)) {
-    write_for_model(options.common, plan, result, options.is_inside ? &inside : nullptr, job);
+    write_for_model(options.common, plan, result, options.is_inside ? &inside : nullptr, depths,
+                    job);
   }
   job.time(Stage::write, [&] {
     if (is_for_model(options.common)) return;
@@ -248,7 +252,8 @@ Command add_triangulate_command(CLI::App& tool) {
       "The constrained Delaunay triangulation: each constraint is a chain of edges, divided at\n"
       "sites that lie on it, and everything else is Delaunay as far as constraints let sites see\n"
       "each other. It is exact and unique. Sites are the points of features, their corners and\n"
-      "those that straight lines in longitude and latitude need; each place is one site.\n\n"
+      "those that straight lines in longitude and latitude need; each place is one site. A mesh\n"
+      "of ocean models has the depths of a column 'depth' beside the sites of --constraints.\n\n"
       "Examples:\n"
       "  rondel triangulate coast.geojson -o mesh.ply\n"
       "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"

@@ -195,6 +195,10 @@ struct SiteTable {
 RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {},
                                 const Execution& execution = {});
 
+/// Returns the names of the columns that were kept and are no coordinates, as read_sites() finds these.
+RONDEL_API std::vector<std::string> value_columns(const SiteTable& table,
+                                                  const ReadOptions& options = {});
+
 /// Reads the faces (m, 3) of a .npy .off .ply .obj or .vtp file.
 RONDEL_API std::vector<Triple> read_triangles(const FileName& file);
 

@@ -100,12 +100,14 @@ RONDEL_API std::vector<BoundarySegment> boundary_segments(
 /// triangle are left out; the others keep their order.
 /// \param positions  the points in degrees, or empty
 /// \param coast  as for boundary_segments(), indices of `points`
+/// \param depths  of the points in metres, positive down; or empty
 /// \throws InvalidInput as boundary_segments() and require_valid() do; if `positions` are not as
-///         many as the points; and (the position of the edge) if an edge of `coast` has no such point
+///         many as the points, or `depths`; and (the position of the edge) if an edge of `coast` has no such point
 RONDEL_API TriangleMesh
 triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
               std::span<const Triple> triangles,
-              const std::optional<std::span<const std::array<Index, 2>>>& coast = std::nullopt);
+              const std::optional<std::span<const std::array<Index, 2>>>& coast = std::nullopt,
+              std::span<const double> depths = {});
 
 /// Checks what TriangleMesh promises.
 /// \throws InvalidInput (the position of the node, triangle or segment, which the message names) for

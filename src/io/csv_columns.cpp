@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -229,3 +230,25 @@ CoordinateColumns find_columns(const Header& header, const ReadOptions& options)
 }
 
 }  // namespace rondel::io
+
+namespace rondel {
+
+std::vector<std::string> value_columns(const SiteTable& table, const ReadOptions& options) {
+  std::vector<std::string> names;
+  for (const Column& column : table.columns) names.push_back(column.name);
+  try {
+    if (!io::has_coordinates(names, options)) return names;
+    const io::CoordinateColumns found = io::find_columns(names, options);
+    std::vector<std::size_t> columns(found.columns.begin(),
+                                     found.columns.begin() + (found.is_lonlat ? 2 : 3));
+    if (found.radius) columns.push_back(*found.radius);
+    std::ranges::sort(columns, std::greater());
+    for (const std::size_t column : columns) {
+      names.erase(names.begin() + static_cast<std::ptrdiff_t>(column));
+    }
+  } catch (const io::BadValue&) {  // properties of GeoJSON, which has its places elsewhere
+  }
+  return names;
+}
+
+}  // namespace rondel

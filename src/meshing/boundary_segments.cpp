@@ -239,12 +239,16 @@ std::vector<BoundarySegment> boundary_segments(
 
 TriangleMesh triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
                            std::span<const Triple> triangles,
-                           const std::optional<std::span<const std::array<Index, 2>>>& coast) {
+                           const std::optional<std::span<const std::array<Index, 2>>>& coast,
+                           std::span<const double> depths) {
   const system::ArithmeticScope arithmetic;
-  if (!positions.empty() && positions.size() != points.size()) {
-    throw InvalidInput("there are " + std::to_string(positions.size()) + " positions for " +
+  const auto require_number = [&](std::size_t number, const char* what) {
+    if (number == 0 || number == points.size()) return;
+    throw InvalidInput("there are " + std::to_string(number) + what + " for " +
                        std::to_string(points.size()) + " points");
-  }
+  };
+  require_number(positions.size(), " positions");
+  require_number(depths.size(), " depths");
   meshing::require_corners(points.size(), triangles);
   std::vector<Index> numbers(points.size(), no_index);
   for (const Triple& triangle : triangles) {
@@ -256,6 +260,7 @@ TriangleMesh triangle_mesh(std::span<const Point> points, std::span<const LonLat
     numbers[i] = static_cast<Index>(mesh.points.size());
     mesh.points.push_back(points[i]);
     if (!positions.empty()) mesh.positions.push_back(positions[i]);
+    if (!depths.empty()) mesh.depths.push_back(depths[i]);
   }
   for (const auto& [a, b, c] : triangles) {
     mesh.triangles.push_back({numbers[a], numbers[b], numbers[c]});

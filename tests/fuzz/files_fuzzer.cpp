@@ -3,8 +3,8 @@
 
 // write_file, FilesTogether::commit, write_indices, write_numbers, read_sites, read_triangles,
 // SiteTable::where, SiteTable::selection, Column::cell, Column::add, Column::empty_copy,
-// Column::has_wide_integers, free_names on files of any bytes and any ending: what a file holds,
-// and messages of one line that begin with its name.
+// Column::has_wide_integers, value_columns, free_names on files of any bytes and any ending: what a
+// file holds, and messages of one line that begin with its name.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -48,6 +48,9 @@ void test_columns(const std::string& path) {
       require(copy.text == text && copy.ends == column.ends && copy.is_json == column.is_json &&
                   copy.has_wide_integers() == column.has_wide_integers(),
               "a column is copied");
+    }
+    for (const std::string& name : value_columns(table, options)) {
+      require(std::ranges::count(names, name) > 0, "a column of values is a column");
     }
     names = free_names(names, {"area"}, true);
     std::ranges::sort(names);

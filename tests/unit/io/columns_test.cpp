@@ -49,6 +49,20 @@ ReadOptions named(const std::string& lon, const std::string& lat) {
   return options;
 }
 
+TEST(csv_columns, of_values_are_those_without_coordinates) {
+  const auto values = [](const Names& header, const ReadOptions& options = {}) {
+    SiteTable table;
+    for (const std::string& name : header) table.columns.push_back(io::make_column(name));
+    return value_columns(table, options);
+  };
+  EXPECT_EQ(values({"id", "LON", "depth", "latitude"}), (Names{"id", "depth"}));
+  EXPECT_EQ(values({"x", "depth", "y", "z", "lon"}), (Names{"depth", "lon"}));
+  EXPECT_EQ(values({"a", "b", "depth", "lon"}, named("b", "a")), (Names{"depth", "lon"}));
+  EXPECT_EQ(values({"depth", "lon"}), (Names{"depth", "lon"}));
+  EXPECT_EQ(values({"lon", "lat", "lng"}), (Names{"lon", "lat", "lng"}));
+  EXPECT_EQ(values({}), Names{});
+}
+
 TEST(csv_columns, are_found_by_usual_names) {
   for (const char* const lon : {"lon", "lng", "long", "longitude", "LON", "Longitude"}) {
     for (const char* const lat : {"lat", "latitude", "LATITUDE"}) {

@@ -208,6 +208,16 @@ TEST(triangle_mesh, leaves_out_points_without_triangles) {
   ASSERT_EQ(mesh.boundary.size(), 2U);
   EXPECT_EQ(mesh.boundary[0], (BoundarySegment{BoundaryKind::open, {0, 1, 2}}));
   EXPECT_EQ(mesh.boundary[1], (BoundarySegment{BoundaryKind::land, {2, 0}}));
+  const std::vector<Triple> triangles = {{0, 2, 3}};
+  const auto with_depths = [&](const std::vector<double>& depths) {
+    return mesh::triangle_mesh(points, {}, triangles, std::nullopt, depths).depths;
+  };
+  EXPECT_EQ(with_depths({5, 6, 7, 8}), (std::vector<double>{5, 7, 8}));
+  EXPECT_EQ(with_depths({}), std::vector<double>{});
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              return with_depths({5, 6, 7});
+            }),
+            "there are 3 depths for 4 points");
 }
 
 TEST(triangle_mesh, may_be_empty) {
