@@ -277,7 +277,8 @@ Command add_mesh_triangles_command(CLI::App& group) {
   add_spacing(*parser, *options);
   CLI::Option* const depth = parser->add_option(
       "--depth", options->depth,
-      "Depths at the nodes, in metres, interpolated in FILE.nc[:NAME] or FILE.csv:COLUMN");
+      "Depths at the nodes, in metres, interpolated in FILE.nc[:NAME], FILE.csv:COLUMN,\n"
+      "FILE.geojson:PROPERTY, or of a mesh of triangles: FILE.14, or a folder of FESOM");
   depth->type_name("FILE");
   parser->add_option("--elevation", options->elevation, "The same, for heights above the sea")
       ->excludes(depth)

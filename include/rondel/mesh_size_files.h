@@ -39,8 +39,8 @@ struct SpacingsWanted {
 /// Reads spacings at places. They are interpolated linearly on the triangulation of the places, and
 /// are those of the nearest place outside of it.
 /// \param file  .nc with longitudes and latitudes of a grid or of points, or with the cells of an
-///              MPAS mesh; or a table .csv .tsv
-/// \param name  the variable or column; empty: the only one
+///              MPAS mesh; a table .csv .tsv; or points, .geojson and what GDAL reads
+/// \param name  the variable, column or property; empty: the only variable
 /// \param unit  what a value is multiplied by to get radians. If the attribute `units` says meters,
 ///              values are also divided by 1000; units other than meters and kilometers are refused
 /// \param[out] remarks  gets sentences on what the file has and the spacings have not: places without
@@ -64,8 +64,9 @@ RONDEL_API SizeFunction read_density(const FileName& file, const std::string& na
 /// The direction in which the numbers of heights, or depths, grow (CF's attribute `positive`).
 enum class Positive : std::uint8_t { up, down };
 
-/// Reads heights or depths as read_spacings() reads spacings, and interpolates them linearly at
-/// nodes. Outside of the places the value of the nearest one counts, and a remark says how many nodes
+/// Reads heights or depths as read_spacings() reads spacings, or the depths of a mesh of triangles
+/// (is_triangle_mesh_file()), and interpolates them linearly at nodes on the triangulation of their
+/// places. Outside of the places the value of the nearest one counts, and a remark says how many nodes
 /// are there.
 /// \param positive  up for heights, down for depths. Where the attribute `positive`, or else the
 ///                  `standard_name`, says otherwise, the file is refused

@@ -51,6 +51,13 @@ std::string take_name(const std::string& name, std::set<std::string>& taken) {
   return *taken.insert(free_names({name}, taken).front()).first;
 }
 
+double number_in_cell(std::string_view cell, const std::string& name) {
+  const std::string_view text = io::trim(cell);
+  const bool is_missing =
+      text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "null";
+  return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(text, name);
+}
+
 std::vector<VariableHeader> ColumnsOut::headers() const {
   std::vector<VariableHeader> headers;
   headers.reserve(columns_.size());

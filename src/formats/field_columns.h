@@ -13,6 +13,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/netcdf_writer.h"
@@ -26,6 +27,9 @@ std::string netcdf_name(std::string name);
 
 // Returns a name of free_names(), which is then taken.
 std::string take_name(const std::string& name, std::set<std::string>& taken);
+
+// Returns the number in a cell; NaN if it is empty or says that it is missing. Throws BadValue.
+double number_in_cell(std::string_view cell, const std::string& name);
 
 // Columns on their way to a file. They must live until write().
 class ColumnsOut {

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "formats/field_columns.h"
 #include "formats/field_formats.h"
 #include "formats/field_names.h"
 #include "io/bad_value.h"
@@ -25,14 +25,6 @@
 
 namespace rondel::formats {
 namespace {
-
-// Returns the number in a cell; NaN if it is empty or says that it is missing.
-double value_of(std::string_view cell, const std::string& name) {
-  const std::string_view text = io::trim(cell);
-  const bool is_missing =
-      text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "null";
-  return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
-}
 
 // Names the line of a table with one column that is empty, since an empty value looks like a
 // missing row there. `records` are at their end.
@@ -76,7 +68,7 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
     io::at_line_of(records, [&] {
       for (std::size_t c = 0; c < columns.size(); ++c) {
         FieldArray& array = fields.arrays[c];
-        array.values.push_back(value_of(records.fields()[columns[c]], array.name));
+        array.values.push_back(number_in_cell(records.fields()[columns[c]], array.name));
       }
     });
     fields.lines.push_back(records.line());

@@ -17,10 +17,13 @@
 #include "exact/vector.h"
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
+#include "formats/field_columns.h"
 #include "formats/netcdf_cells.h"
 #include "formats/sea_floor.h"
+#include "formats/sites_gdal.h"
 #include "formats/unplaced_rows.h"
 #include "io/bad_value.h"
+#include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
@@ -33,6 +36,7 @@
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/read_cells.h"
+#include "rondel/triangle_files.h"
 #include "system/message_text.h"
 
 namespace rondel::mesh {
@@ -178,19 +182,73 @@ Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
                   "latitudes of points, of a grid, or the cells of a mesh");
 }
 
-// Reads spacings from netCDF or from a table of sites with a column of that name.
+// Returns the numbers of a property of features, one for each site.
+std::vector<double> numbers_of_property(const SiteTable& table, const std::string& name) {
+  const auto column = std::ranges::find(table.columns, name, &Column::name);
+  if (column == table.columns.end()) {
+    throw FileError(table.name + ": no feature has the property " + io::in_quotes(name));
+  }
+  std::vector<double> values;
+  for (std::size_t i = 0; i < column->ends.size(); ++i) {
+    try {
+      values.push_back(formats::number_in_cell(column->cell(i), name));
+    } catch (const io::BadValue& bad) {
+      throw FileError(table.where(i) + ": " + bad.what());
+    }
+  }
+  return values;
+}
+
+// Reads spacings from netCDF, or from sites with a column or property of that name.
 Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
   if (is_netcdf_file(file)) {
     return spacings_of_netcdf(file, name);
   }
-  SiteTable table = read_sites(file, {}, execution);
-  if (name.empty()) throw FileError(table.name + ": which column is meant is not said");
-  formats::require_places_of_rows(table);
-  FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
+  if (is_triangle_mesh_file(file)) {
+    throw FileError(file.path +
+                    ": a mesh of triangles has depths alone: other numbers are read from "
+                    "FILE.nc[:NAME], FILE.csv:COLUMN or FILE.geojson:PROPERTY");
+  }
+  const bool has_properties = io::is_geojson(file) || formats::is_read_by_gdal(file);
+  ReadOptions read;
+  read.keep_columns = has_properties;
+  SiteTable table = read_sites(file, read, execution);
+  if (name.empty()) {
+    throw FileError(table.name + ": which " + (has_properties ? "property" : "column") +
+                    " is meant is not said");
+  }
   Spacings result;
+  if (has_properties) {
+    result.values = numbers_of_property(table, name);
+  } else {
+    formats::require_places_of_rows(table);
+    FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
+    result.values = std::move(fields.arrays.front().values);
+  }
   result.places = std::move(table.sites);
-  result.values = std::move(fields.arrays.front().values);
   result.table = std::move(table);
+  return result;
+}
+
+// Returns the depths of a mesh of triangles, positive down. Throws FileError if it has none, or other
+// numbers are wanted.
+Spacings depths_of_mesh(const FileName& file, const std::string& name, Positive wanted,
+                        const Execution& execution) {
+  if (wanted == Positive::up) {
+    throw FileError(file.path +
+                    ": a mesh of triangles has depths, where heights are wanted: --depth reads it");
+  }
+  TriangleMesh mesh = read_triangle_mesh(file, execution);
+  if (!name.empty() && name != "depth") {
+    throw FileError(file.path + ": a mesh of triangles has depths, and no " + io::in_quotes(name));
+  }
+  if (mesh.depths.empty()) throw FileError(file.path + ": the mesh has no depths");
+  Spacings result;
+  result.places = std::move(mesh.points);
+  if (mesh.positions.empty()) {  // x, y, z of any length
+    for (Point& node : result.places) node = normalized(node);
+  }
+  result.values = std::move(mesh.depths);
   return result;
 }
 
@@ -407,7 +465,9 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
 std::vector<double> read_heights(const FileName& file, const std::string& name, Positive positive,
                                  std::span<const Point> nodes, const Execution& execution,
                                  std::vector<std::string>* remarks) {
-  Spacings heights = spacings_of(file, name, execution);
+  const bool is_mesh = is_triangle_mesh_file(file) && !is_netcdf_file(file);
+  Spacings heights = is_mesh ? depths_of_mesh(file, name, positive, execution)
+                             : spacings_of(file, name, execution);
   require_positive(file, heights, positive);
   drop_missing(file, heights, remarks);
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");

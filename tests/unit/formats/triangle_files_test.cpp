@@ -9,13 +9,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/mesh_size_files.h"
 #include "support/temporary_files.h"
 #include "support/thrown.h"
 #include "unit/meshing/triangle_meshes.h"
@@ -147,6 +151,68 @@ TEST(triangle_files, tell_what_they_do_not_hold) {
       EXPECT_FALSE(is_told("old"));
     }
   }
+}
+
+// The depths at places between the nodes are those that a table, or features, of the nodes give.
+TEST(triangle_files, are_depths_for_other_meshes) {
+  const TemporaryDirectory folder;
+  const TriangleMesh mesh = arctic_mesh(4);
+  std::string table = "lon,lat,z\n";
+  std::string features;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    std::ostringstream place;
+    place << std::setprecision(17) << mesh.positions[i].lon_deg << ',' << mesh.positions[i].lat_deg;
+    std::ostringstream depth;
+    depth << std::setprecision(17) << mesh.depths[i];
+    table += place.str() + ',' + depth.str() + '\n';
+    features += std::string(i == 0 ? "" : ",") + R"({"type":"Feature","properties":{"z":)" +
+                depth.str() + R"(},"geometry":{"type":"Point","coordinates":[)" + place.str() +
+                "]}}";
+  }
+  std::vector<Point> places;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Point& p = mesh.points[a];
+    const Point& q = mesh.points[b];
+    const Point& r = mesh.points[c];
+    const Point sum = {p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z};
+    const double length = std::hypot(sum.x, sum.y, sum.z);
+    places.push_back({sum.x / length, sum.y / length, sum.z / length});
+  }
+  const auto depths = [&](const FileName& file, const std::string& name = {}) {
+    return mesh::read_heights(file, name, mesh::Positive::down, places);
+  };
+  const std::vector<double> expected = depths(folder.with("a.csv", table), "z");
+  const std::string geojson =
+      folder.with("a.geojson", R"({"type":"FeatureCollection","features":[)" + features + "]}");
+  EXPECT_EQ(depths(geojson, "z"), expected);
+  for (const char* const name : {"a.14", "a.gr3", "a.2dm", "a.nc"}) {
+    mesh::write_triangle_mesh(folder.file(name), mesh);
+    EXPECT_EQ(depths(folder.file(name), name == std::string("a.2dm") ? "depth" : ""), expected);
+  }
+  mesh::write_triangle_mesh({folder.file("f"), "fesom"}, mesh);
+  EXPECT_EQ(depths(folder.file("f")), expected);
+
+  const auto refused = [&](const std::string& file, const std::string& name,
+                           mesh::Positive positive = mesh::Positive::down) {
+    const std::string path = folder.file(file);
+    const std::string text =
+        thrown_message<FileError>([&] { return mesh::read_heights(path, name, positive, places); });
+    return text.substr(std::min(path.size(), text.size()));
+  };
+  EXPECT_EQ(refused("a.14", "z"), ": a mesh of triangles has depths, and no \"z\"");
+  EXPECT_EQ(refused("a.14", "", mesh::Positive::up),
+            ": a mesh of triangles has depths, where heights are wanted: --depth reads it");
+  EXPECT_EQ(refused("a.geojson", "depth"), ": no feature has the property \"depth\"");
+  EXPECT_EQ(refused("a.geojson", ""), ": which property is meant is not said");
+  static_cast<void>(folder.with("b.geojson",
+                                R"({"type":"Feature","properties":{"z":"deep"},"geometry":)"
+                                R"({"type":"Point","coordinates":[1,2]}})"));
+  EXPECT_EQ(refused("b.geojson", "z"), ":1: z \"deep\" is not a number");
+  TriangleMesh flat = mesh;
+  flat.depths.clear();
+  mesh::write_triangle_mesh(folder.file("flat.14"), flat);
+  EXPECT_EQ(refused("flat.14", ""), ": the mesh has no depths");
+  EXPECT_THROW((void)mesh::read_spacings(folder.file("a.14"), "", 1), FileError);
 }
 
 TEST(triangle_files, of_fesom_name_files_that_are_left_out) {
