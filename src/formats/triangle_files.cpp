@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -104,7 +105,8 @@ void read_into(const FileName& name, formats::MeshInFile& file) {
 }
 
 // Returns what of a mesh a format does not hold. FESOM's alone has levels, and no segments.
-std::vector<std::string> lost_in(bool is_fesom, bool has_types, const TriangleMesh& mesh) {
+std::vector<std::string> lost_in(bool is_fesom, bool is_in_space, bool has_types,
+                                 const TriangleMesh& mesh) {
   std::vector<std::string> remarks;
   if (!is_fesom && !mesh.levels.empty()) {
     remarks.push_back("the " + std::to_string(mesh.levels.size()) +
@@ -115,6 +117,12 @@ std::vector<std::string> lost_in(bool is_fesom, bool has_types, const TriangleMe
     remarks.emplace_back(
         "the types of segments (IBTYPE) are left out, which files of ADCIRC, SCHISM and UGRID "
         "have");
+  }
+  const auto is_beyond = [](const LonLat& place) { return std::abs(place.lon_deg) > 180; };
+  if (is_in_space && std::ranges::any_of(mesh.positions, is_beyond)) {
+    remarks.emplace_back(
+        "nodes become x, y, z, from which longitudes are read as -180 to 180: those of this mesh "
+        "are others");
   }
   const auto is_open = [](const BoundarySegment& one) { return one.kind == BoundaryKind::open; };
   if (is_fesom && std::ranges::any_of(mesh.boundary, is_open)) {
@@ -163,7 +171,7 @@ void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
   const OceanFormat* const format = ocean_format(name);
   if (remarks != nullptr) {
     const bool has_types = format == nullptr || format->write == &formats::write_gr3;
-    *remarks = lost_in(is_fesom(name), !is_fesom(name) && has_types, mesh);
+    *remarks = lost_in(is_fesom(name), is_in_space, !is_fesom(name) && has_types, mesh);
   }
   if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
   if (format == nullptr && !is_ugrid_file(name)) {

@@ -126,7 +126,10 @@ TEST(triangle_files, of_fesom_come_back_bit_by_bit) {
 // What a mesh lacks when it is read again is what the writer told.
 TEST(triangle_files, tell_what_they_do_not_hold) {
   const TemporaryDirectory folder;
-  for (const TriangleMesh& mesh : {arctic_mesh(4), global_mesh(5), typed_mesh()}) {
+  TriangleMesh eastern = arctic_mesh(4);  // longitudes from 0 to 360
+  for (LonLat& place : eastern.positions) place.lon_deg += place.lon_deg < 0 ? 360 : 0;
+  eastern.points = unit_vectors(eastern.positions);
+  for (const TriangleMesh& mesh : {arctic_mesh(4), global_mesh(5), typed_mesh(), eastern}) {
     for (const char* const format : {"msh", "gmsh2", "14", "gr3", "2dm", "ugrid", "fesom"}) {
       SCOPED_TRACE(format);
       const FileName file = {folder.file(format), format};
@@ -148,7 +151,13 @@ TEST(triangle_files, tell_what_they_do_not_hold) {
       EXPECT_EQ(is_told("levels"), read.levels != mesh.levels);
       EXPECT_EQ(is_told("IBTYPE"), num_types(read) != num_types(mesh));
       EXPECT_EQ(is_told("open segments"), num_open(read) != num_open(mesh));
+      const auto has_longitudes = [&](double east) {
+        return std::ranges::any_of(
+            mesh.positions, [&](const LonLat& place) { return std::abs(place.lon_deg) > east; });
+      };
+      EXPECT_EQ(is_told("x, y, z"), read.positions.empty() && has_longitudes(180));
       EXPECT_FALSE(is_told("old"));
+      EXPECT_TRUE(read.positions.empty() || read.positions == mesh.positions);
     }
   }
 }
