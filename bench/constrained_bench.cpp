@@ -6,6 +6,10 @@
 // square of the cube around the sphere, up to four in each square, so that none cross. Prints
 // medians, and nanoseconds for each edge that the constraints cross, as one JSON object.
 //
+// constrained_bench SITES.npy EDGES.csv [THREADS]: does the same for sites and constraints of files,
+// as compare/gshhg.py writes them, turned by another angle each time. Constraints that cross others
+// are left out.
+//
 // constrained_bench --changes N CONSTRAINTS [--seed S]: measures single changes of a
 // DynamicConstrainedTriangulation of the same sites and constraints: new sites, which then go
 // again, beside those of a DynamicTriangulation; and all constraints, which go and come again, both
@@ -16,10 +20,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <iterator>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -61,15 +68,22 @@ std::size_t num_crossed(const rondel::Triangulation& before, const rondel::Trian
   return gone.size();
 }
 
-void run(std::size_t n, std::size_t wanted, unsigned threads, std::uint64_t seed) {
+struct Input {
+  std::vector<Point> sites;
+  std::vector<Edge> constraints;
+};
+
+// Measures inputs, of which make(i) returns the i-th one.
+template <class Make>
+void run(unsigned threads, const Make& make) {
   const rondel::Execution execution{.threads = threads};
   std::vector<double> plain;
   std::vector<double> constrained;
   std::size_t crossed = 0;
+  std::size_t num_sites = 0;
   std::size_t num_constraints = 0;
   for (int i = 0; i < repetitions; ++i) {
-    const auto sites = rondel::bench::make_input("uniform", n, seed + static_cast<unsigned>(i));
-    const std::vector<Edge> constraints = random_constraints(sites, wanted);
+    const auto [sites, constraints] = make(i);
     rondel::Triangulation before;
     rondel::ConstrainedTriangulation after;
     plain.push_back(
@@ -78,16 +92,46 @@ void run(std::size_t n, std::size_t wanted, unsigned threads, std::uint64_t seed
       after = constrained_delaunay(rondel::Sites::view(sites), constraints, {}, execution);
     }));
     crossed = num_crossed(before, after.triangulation);
+    num_sites = sites.size();
     num_constraints = constraints.size();
   }
   const double more = median(constrained) - median(plain);
-  std::printf(R"({"sites": %zu, "constraints": %zu, "threads": %u, "crossed": %zu, )", n,
+  std::printf(R"({"sites": %zu, "constraints": %zu, "threads": %u, "crossed": %zu, )", num_sites,
               num_constraints, threads, crossed);
   std::printf(R"("delaunay_seconds": %.4f, "constrained_seconds": %.4f, )", median(plain),
               median(constrained));
   std::printf(R"("ns_per_crossed_edge": %.1f})"
               "\n",
               more / static_cast<double>(std::max<std::size_t>(crossed, 1)) * 1e9);
+}
+
+std::vector<Edge> read_edges(const char* name) {
+  std::ifstream file(name);
+  std::vector<Edge> edges;
+  char comma = 0;
+  for (Edge edge{}; file >> edge[0] >> comma >> edge[1];) edges.push_back(edge);
+  return edges;
+}
+
+void run_files(const char* sites_name, const char* edges_name, unsigned threads) {
+  Input input = {rondel::bench::make_input(sites_name, 0), read_edges(edges_name)};
+  const std::size_t num_given = input.constraints.size();
+  for (bool has_crossing = true; has_crossing;) {
+    try {
+      rondel::constrained_delaunay(rondel::Sites::view(input.sites), input.constraints);
+      has_crossing = false;
+    } catch (const rondel::CrossingConstraints& crossing) {
+      input.constraints.erase(input.constraints.begin() + crossing.constraints()[1]);
+    }
+  }
+  std::fprintf(stderr, "%zu constraints are left out\n", num_given - input.constraints.size());
+  run(threads, [&](int i) {
+    Input turned = input;
+    const double cosine = std::cos(0.7 * i);
+    const double sine = std::sin(0.7 * i);
+    for (Point& p : turned.sites) p = {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z};
+    return turned;
+  });
 }
 
 // Returns the microseconds of each of `size` changes, make(0), make(1) ...
@@ -169,6 +213,7 @@ int main(int argc, char** argv) {
   if (argc < (has_changes ? 4 : 3)) {
     std::fprintf(stderr,
                  "usage: constrained_bench N CONSTRAINTS [THREADS] [--seed S]\n"
+                 "       constrained_bench SITES.npy EDGES.csv [THREADS]\n"
                  "       constrained_bench --changes N CONSTRAINTS [--seed S]\n"
                  "       constrained_bench --curves K\n");
     return 2;
@@ -183,7 +228,17 @@ int main(int argc, char** argv) {
                 static_cast<std::size_t>(std::atoll(argv[3])), seed);
     return 0;
   }
-  run(static_cast<std::size_t>(std::atoll(argv[1])), static_cast<std::size_t>(std::atoll(argv[2])),
-      argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1, seed);
+  const unsigned threads = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;
+  if (std::string_view(argv[1]).ends_with(".npy")) {
+    run_files(argv[1], argv[2], threads);
+    return 0;
+  }
+  const auto n = static_cast<std::size_t>(std::atoll(argv[1]));
+  const auto wanted = static_cast<std::size_t>(std::atoll(argv[2]));
+  run(threads, [&](int i) {
+    Input input = {rondel::bench::make_input("uniform", n, seed + static_cast<unsigned>(i)), {}};
+    input.constraints = random_constraints(input.sites, wanted);
+    return input;
+  });
   return 0;
 }

@@ -4,13 +4,15 @@
 
     apt-get download gmt-gshhg-full && dpkg -x gmt-gshhg-full_*.deb gshhg
     python3 gshhg.py gshhg/usr/share/gmt-gshhg/binned_GSHHS_f.nc coasts.geojson
+    python3 gshhg.py gshhg/usr/share/gmt-gshhg/binned_GSHHS_f.nc sites.npy sides.csv
 
 GMT keeps them in bins of one degree. A segment begins and ends at a side of its bin, in exactly the
 place where the next segment of its polygon begins, in units of 1/65535 degree.
 
 in    netCDF-4 of GMT (needs netCDF4 and NumPy)
 out   .geojson: a feature for each land and each island in a lake, with lakes as holes, Antarctica
-      as far as its ice; or .npz: lonlat (n, 2), rings (offsets), level, gid and parent
+      as far as its ice; or .npz: lonlat (n, 2), rings (offsets), level, gid and parent; or .npy and
+      .csv: the different positions of all rings as x, y, z, and the sides of land between them
 """
 
 from __future__ import annotations
@@ -147,10 +149,29 @@ def write_geojson(rings: dict[str, np.ndarray[Any, Any]], path: str) -> None:
         file.write("\n]}\n")
 
 
+def write_sides(rings: dict[str, np.ndarray[Any, Any]], sites: str, sides: str) -> None:
+    """Writes positions in the order in which they come first, and sides as pairs of them."""
+    lonlat, offsets = rings["lonlat"], rings["rings"]
+    _, first, place = np.unique(lonlat, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    number = np.argsort(order)[np.ravel(place)]
+    lon, lat = np.radians(lonlat[first[order]]).T
+    np.save(
+        sites, np.column_stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)])
+    )
+    following = np.arange(1, len(lonlat) + 1)
+    following[offsets[1:] - 1] = offsets[:-1]
+    pairs = np.column_stack([number, number[following]])
+    is_side = np.repeat(rings["level"] == LAND, np.diff(offsets)) & (pairs[:, 0] != pairs[:, 1])
+    np.savetxt(sides, pairs[is_side], fmt="%d", delimiter=",")
+
+
 if __name__ == "__main__":
-    source, target = sys.argv[1:]
+    source, target = sys.argv[1:3]
     found = joined(source)
-    if target.endswith(".npz"):
+    if target.endswith(".npy"):
+        write_sides(found, target, sys.argv[3])
+    elif target.endswith(".npz"):
         np.savez(target, **found)
     else:
         write_geojson(found, target)

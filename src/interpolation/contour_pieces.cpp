@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 
+#include "topology/mesh.h"
+
 namespace rondel::interpolation {
 namespace {
 
@@ -50,8 +52,7 @@ void ValuedFaces::find_missing(std::size_t begin, std::size_t end) {
 
 std::size_t ValuedFaces::twin(Index face, std::size_t edge, Index across) const {
   const Index end = faces_[face][(edge + 1) % 3];
-  const Triple& corners = faces_[across];
-  return corners[0] == end ? 0 : corners[1] == end ? 1 : 2;
+  return topology::corner_of(faces_[across], end);
 }
 
 bool ValuedFaces::has_piece(Index face, const ValueRange& range) const {

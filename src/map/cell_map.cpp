@@ -9,6 +9,7 @@
 #include "map/trace.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
+#include "topology/mesh.h"
 
 namespace rondel::map {
 
@@ -178,7 +179,7 @@ bool CellMap::find_plain(std::size_t site, Pen& pen) const {
     const Index q = points[i + 1 == points.size() ? 0 : i + 1];
     if (p >= triangulation_.num_faces() || representative(p) != p) return false;
     const Triple& face = triangulation_.faces()[p];
-    const std::size_t corner = face[0] == a ? 0 : (face[1] == a ? 1 : 2);
+    const unsigned corner = topology::corner_of(face, a);
     const ArcTolerance tolerance = tolerance_between(own_direction, face[(corner + 2) % 3]);
     const MapPoint from{snapped(cells_.points[p]), positions_[p]};
     const MapPoint to{snapped(cells_.points[q]), positions_[q]};
@@ -262,7 +263,7 @@ bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   const auto read_face = [&](Index point) {
     if (point >= triangulation_.num_faces()) return false;
     const Triple& face = triangulation_.faces()[point];
-    const std::size_t corner = face[0] == a ? 0 : (face[1] == a ? 1 : 2);
+    const unsigned corner = topology::corner_of(face, a);
     tolerance = tolerance_between(own_direction, face[(corner + 2) % 3]);
     return true;
   };

@@ -25,6 +25,7 @@
 #include "exact/vector.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
+#include "topology/mesh.h"
 
 namespace rondel::mesh {
 
@@ -59,8 +60,7 @@ class KineticDelaunay {
 
   // Returns which corner of a face this vertex is.
   [[nodiscard]] Index corner_of(Index face, Index vertex) const {
-    const Triple& corners = faces_[face];
-    return corners[0] == vertex ? 0 : (corners[1] == vertex ? 1 : 2);
+    return topology::corner_of(faces_[face], vertex);
   }
 
  private:

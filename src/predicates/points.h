@@ -48,7 +48,7 @@ concept RaySource = PointSource<S> && requires(S& points, Index a) {
 };
 
 // The unit vector from the center to p != center, off by at most `direction_error`.
-Vector direction(const Point& p, const Point& center);
+RONDEL_API Vector direction(const Point& p, const Point& center);
 // Computes the same for many points.
 RONDEL_API void directions(std::span<const Point> points, const Point& center, Vector* result);
 
