@@ -132,6 +132,9 @@ struct CellFacts {
   std::vector<std::string> remarks = {};
   /// Whether the file has no corners, and they were made from the centers (MissingCorners::made).
   bool are_corners_made = false;
+  /// The lines between the cells of a grid along `axes` that come from bounds in the file; an axis
+  /// without bounds has none.
+  LonLatGrid given_lines = {};
 };
 
 /// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.

@@ -149,6 +149,10 @@ class RONDEL_API CellSet {
   /// last one may be repeated, and (0, 0) for a cell without ring. The result is empty if facts()
   /// say so, or if a cell has several rings or more than 16 corners.
   [[nodiscard]] std::vector<LonLat> corners() const;
+  /// Returns the corners as CF has bounds (section 7.1): as corners(), but NaN for a cell without ring,
+  /// and with longitudes at most 180 degrees from that of the cell's place.
+  /// \throws InvalidInput as places() does
+  [[nodiscard]] std::vector<LonLat> bounds() const;
 
  private:
   friend class overlay::CellSetData;

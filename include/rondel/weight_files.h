@@ -33,6 +33,12 @@ struct WeightSide {
   std::vector<Column> columns;
   /// The axes of a grid along axes, in place of `points`; only files of fields take them.
   LonLatAxes axes = {};
+  /// The lines between the cells along `axes`, of which files of fields write bounds; an axis without
+  /// lines gets no bounds.
+  LonLatGrid lines = {};
+  /// Whether files of fields write `corners` as bounds of the places. The places are written as a
+  /// list or in the shape then, and not as axes.
+  bool has_bounds = {};
   /// True if the numbers of this side counted from 0 in a file whose format counts from 1
   /// (WeightReadOptions::are_checked).
   bool counts_from_zero = false;

@@ -422,6 +422,8 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
   const io::VariableInFile* const lat_bounds = bounds(pair.lat_bounds);
   mesh.grid = LonLatGrid{lines_of(file, lon, lat, lon_bounds, true),
                          lines_of(file, lat, lon, lat_bounds, false)};
+  if (lon_bounds != nullptr) mesh.given_lines.lon_deg = mesh.grid->lon_deg;
+  if (lat_bounds != nullptr) mesh.given_lines.lat_deg = mesh.grid->lat_deg;
   mesh.shape = {lat.num_values, lon.num_values};
   const std::vector<double> lons = degrees_of(file, lon, UsualUnits::of_name, {lon_bounds, &lat});
   const std::vector<double> lats = degrees_of(file, lat, UsualUnits::of_name, {lat_bounds, &lon});

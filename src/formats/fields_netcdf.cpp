@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Writes a FieldSet as netCDF by the CF conventions: leading dimensions with their coordinates (CF
-// section 5), the places of the points as `lat` and `lon`, then each array with its attributes,
-// `_FillValue`, and `coordinates` where the points are no grid along axes.
+// section 5), the places of the points as `lat` and `lon`, with the bounds of their cells where they
+// are known, then each array with its attributes, `_FillValue`, and `coordinates` where the points are no grid along axes.
 #include <algorithm>
 #include <array>
 #include <deque>
 #include <iterator>
 #include <set>
+#include <string_view>
 
 #include "formats/cf_values.h"
 #include "formats/field_columns.h"
@@ -56,16 +57,19 @@ void add_places(std::vector<io::NetcdfAttribute>& attributes) {
   }
 }
 
-// Writes the points of a side, as a longitude-latitude grid or as a list.
+// Writes the points of a side, as a longitude-latitude grid or as a list, and the bounds of their
+// cells (CF section 7.1).
 class PointsOut {
  public:
   // The points are written as a grid if the shape has two dimensions and the places are those of a
-  // latitude for each row and a longitude for each column.
+  // latitude for each row and a longitude for each column, unless they have corners, which may be
+  // those of other cells than the ones between parallels.
   PointsOut(const WeightSide& side, const FieldSet& fields)
       : side_(side), dimension_(fields.dimension) {
     const std::vector<LonLat>& points = side.points;
     has_axes_ = !side.axes.lon_deg.empty();
-    is_grid_ = side.shape.size() == 2 && (has_axes_ || !points.empty());
+    has_corners_ = side.has_bounds && !side.corners.empty();
+    is_grid_ = !has_corners_ && side.shape.size() == 2 && (has_axes_ || !points.empty());
     const std::size_t row = is_grid_ ? side.shape[1] : 1;
     for (std::size_t i = 0; is_grid_ && i < points.size(); ++i) {
       is_grid_ = points[i].lon_deg == points[i % row].lon_deg &&
@@ -79,6 +83,9 @@ class PointsOut {
   [[nodiscard]] std::set<std::string> names() const {
     std::set<std::string> names;
     if (has_places()) names = {"lat", "lon"};
+    for (const std::string name : {"lat", "lon"}) {
+      if (num_bounds(name) > 0) names.insert(name + bounds_ending);
+    }
     if (is_grid_) return names;
     if (side_.shape.size() <= 1) {
       names.insert(dimension_);
@@ -87,8 +94,10 @@ class PointsOut {
     }
     return names;
   }
-  // Defines dimensions and coordinates.
-  void define(io::NetcdfWriter& out) {
+  // Defines dimensions and coordinates. `dimension(name, length)` returns the number of a dimension
+  // that other variables may have, too.
+  template <typename Dimension>
+  void define(io::NetcdfWriter& out, Dimension dimension) {
     if (is_grid_) {
       dimensions_ = {out.add_dimension("lat", side_.shape[0]), out.add_dimension("lon", num_lon_)};
     } else if (side_.shape.size() > 1) {
@@ -102,23 +111,45 @@ class PointsOut {
     const auto of = [&](std::size_t d) {
       return is_grid_ ? std::vector<std::size_t>{dimensions_[d]} : dimensions_;
     };
-    out.add_variable(variable("lat", NetcdfType::float64, of(0),
-                              {{"units", "degrees_north"}, {"standard_name", "latitude"}}));
-    out.add_variable(variable("lon", NetcdfType::float64, of(1),
-                              {{"units", "degrees_east"}, {"standard_name", "longitude"}}));
+    io::NetcdfVariable lat = variable("lat", NetcdfType::float64, of(0),
+                                      {{"units", "degrees_north"}, {"standard_name", "latitude"}});
+    io::NetcdfVariable lon = variable("lon", NetcdfType::float64, of(1),
+                                      {{"units", "degrees_east"}, {"standard_name", "longitude"}});
+    std::vector<io::NetcdfVariable> bounds;
+    for (io::NetcdfVariable* const coordinate : {&lat, &lon}) {
+      const std::size_t number = num_bounds(coordinate->name);
+      if (number == 0) continue;
+      std::vector<std::size_t> dimensions = coordinate->dimensions;
+      dimensions.push_back(dimension(has_corners_ ? "nv" : "bnds", number));
+      bounds.push_back(
+          variable(coordinate->name + bounds_ending, NetcdfType::float64, std::move(dimensions)));
+      coordinate->attributes.push_back({"bounds", NetcdfType::text, bounds.back().name, {}});
+    }
+    out.add_variable(std::move(lat));
+    out.add_variable(std::move(lon));
+    for (io::NetcdfVariable& each : bounds) out.add_variable(std::move(each));
   }
-  // Writes the coordinates, in the order of define().
+  // Writes the coordinates and bounds, in the order of define().
   void write(io::NetcdfWriter& out) const {
     if (!has_places()) return;
     if (has_axes_) {
       out.write(std::span<const double>(side_.axes.lat_deg));
       out.write(std::span<const double>(side_.axes.lon_deg));
+      for (const std::vector<double>* const lines : {&side_.lines.lat_deg, &side_.lines.lon_deg}) {
+        if (lines->empty()) continue;
+        out.write_values<double>(2 * (lines->size() - 1),
+                                 [&](std::size_t k) { return (*lines)[k / 2 + k % 2]; });
+      }
       return;
     }
     const std::size_t step = is_grid_ ? num_lon_ : 1;
     out.write_values<double>(is_grid_ ? side_.shape[0] : num_points_,
                              [&](std::size_t i) { return side_.points[i * step].lat_deg; });
     out.write_values<double>(num_lon_, [&](std::size_t i) { return side_.points[i].lon_deg; });
+    if (!has_corners_) return;
+    const std::vector<LonLat>& corners = side_.corners;
+    out.write_values<double>(corners.size(), [&](std::size_t k) { return corners[k].lat_deg; });
+    out.write_values<double>(corners.size(), [&](std::size_t k) { return corners[k].lon_deg; });
   }
   // Returns the numbers of the dimensions of the points, after define().
   [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return dimensions_; }
@@ -135,11 +166,20 @@ class PointsOut {
     return rank <= names.size() ? names[names.size() - rank + d] : "axis_" + std::to_string(d);
   }
   [[nodiscard]] bool has_places() const { return has_axes_ || !side_.points.empty(); }
+  // Returns how many bounds each number of the coordinate `lat` or `lon` has, or 0.
+  [[nodiscard]] std::size_t num_bounds(std::string_view coordinate) const {
+    if (has_corners_) return side_.corners.size() / num_points_;
+    const LonLatGrid& lines = side_.lines;
+    return !has_axes_ || (coordinate == "lat" ? lines.lat_deg : lines.lon_deg).empty() ? 0 : 2;
+  }
+
+  static constexpr const char* bounds_ending = "_bnds";
 
   const WeightSide& side_;
   const std::string& dimension_;
   bool has_axes_ = false;
   bool is_grid_ = false;
+  bool has_corners_ = false;
   std::size_t num_lon_ = 0;
   std::size_t num_points_ = 0;
   std::vector<std::size_t> dimensions_;
@@ -227,7 +267,9 @@ class NetcdfSink : public FieldSink {
                          other.is_text ? NetcdfType::text : NetcdfType::float64,
                          std::move(dimensions), with_attributes(other)});
     }
-    points_.define(out_);
+    points_.define(out_, [this](const char* name, std::uint64_t length) {
+      return dimension(name, length).number;
+    });
     define_values(fields, leading);
   }
 

@@ -148,7 +148,7 @@ class RegridJob {
     fields_->keep_chunks(
         static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     const bool is_netcdf = is_netcdf_file(out_);
-    const WeightSide side = target_.description(is_netcdf);
+    const WeightSide side = target_.description(is_netcdf, execution_);
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
       output.emplace(out_, written, side, options_.netcdf, execution_);

@@ -73,11 +73,21 @@ void require_places(const FileName& file) {
                   "carries values to the points of tables");
 }
 
+// True if places that were read in two ways are one.
+bool is_near(const LonLat& a, const LonLat& b) {
+  constexpr double rounding = 1e-4;  // degrees, of single precision
+  return is_same_place(a, b, rounding);
+}
+
+bool is_same_axis(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::ranges::equal(a, b, [](double p, double q) { return is_near({p, 0}, {q, 0}); });
+}
+
 }  // namespace
 
 RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
                        const Execution& execution, const std::vector<std::string>& names)
-    : name_(file.path), options_(options) {
+    : name_(file.path), file_(file), options_(options) {
   require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
   const GridOfFile grid = is_name ? GridOfFile{file.path, {}, {}} : grid_of_file(file, has_cells);
@@ -129,6 +139,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
       mask_ = table.facts.mask;
       remarks_ = table.facts.remarks;
       axes_ = std::move(table.facts.axes);
+      given_lines_ = std::move(table.facts.given_lines);
       return;
     }
     cells_ = CellSet::of(std::move(table), options_.sides, execution);
@@ -142,6 +153,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
   mask_ = facts.mask;
   remarks_ = facts.remarks;
   columns_ = facts.columns;
+  given_lines_ = facts.given_lines;
   places_ = cells_->places();
   if (!facts.axes.lon_deg.empty()) axes_ = facts.axes;
   if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
@@ -221,16 +233,48 @@ TiledCells RegridSide::tiled() const {
   return lines_ ? TiledCells(*lines_) : TiledCells(*cells_);
 }
 
-WeightSide RegridSide::description(bool has_axes) const {
+WeightSide RegridSide::description(bool is_netcdf, const Execution& execution) const {
   WeightSide side;
   side.shape = shape_;
   side.columns = columns_;
-  if (axes_ && has_axes) {
+  if (is_netcdf && !named_) add_bounds(side, execution);
+  if (axes_ && is_netcdf && !side.has_bounds) {
     side.axes = *axes_;
   } else {
     side.points = places();
   }
   return side;
+}
+
+void RegridSide::add_bounds(WeightSide& side, const Execution& execution) const {
+  if (lines_ || cells_) {
+    side.lines = given_lines_;
+    if (cells_ && cells_->lines() == nullptr) side.corners = cells_->bounds();
+  } else {
+    find_bounds(side, execution);
+  }
+  side.has_bounds = !side.corners.empty();
+}
+
+// The places may be nodes or edges of a mesh, and the file may have no cells, or none that are valid.
+void RegridSide::find_bounds(WeightSide& side, const Execution& execution) const {
+  try {
+    CellTable table = read_cells(file_);
+    if (table.num_cells() != num_places()) return;
+    if (table.grid) {
+      const LonLatAxes& found = table.facts.axes;
+      const bool are_same = axes_ && is_same_axis(found.lon_deg, axes_->lon_deg) &&
+                            is_same_axis(found.lat_deg, axes_->lat_deg);
+      if (are_same) side.lines = table.facts.given_lines;
+      return;
+    }
+    const CellSet cells = CellSet::of(std::move(table), GridSides::parallels, execution);
+    if (std::ranges::equal(cells.places(), places(), is_near)) side.corners = cells.bounds();
+  } catch (const FileError&) {
+    return;
+  } catch (const InvalidInput&) {
+    return;
+  }
 }
 
 void RegridSide::add_mapping(FieldSet& fields) const {

@@ -57,9 +57,9 @@ class RegridSide {
   [[nodiscard]] double largest_share() const;
   // Returns the cells for tiles. Precondition: has_tiles().
   [[nodiscard]] TiledCells tiled() const;
-  // Returns what a file of fields gets to know. With `has_axes`, a grid along axes has these and no
-  // list of places.
-  [[nodiscard]] WeightSide description(bool has_axes) const;
+  // Returns what a file of fields gets to know. In netCDF, a grid along axes has these and no list of
+  // places; and the cells of a file have bounds, if all have one ring of at most 16 corners.
+  [[nodiscard]] WeightSide description(bool is_netcdf, const Execution& execution) const;
   // Adds the variable by which a file says that points are the pixels of HEALPix, if they are, or the
   // attribute that names another grid.
   void add_mapping(FieldSet& fields) const;
@@ -71,12 +71,19 @@ class RegridSide {
   void take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                  const Execution& execution);
   void make_cells(const Execution& execution);
+  // Adds the bounds of the cells of a file, also of one that was read without cells.
+  void add_bounds(WeightSide& side, const Execution& execution) const;
+  // Adds the bounds of the file's cells to a side that was read without cells, if these are around its
+  // places.
+  void find_bounds(WeightSide& side, const Execution& execution) const;
 
   std::string name_;
+  FileName file_;
   CellFileOptions options_;
   std::optional<NamedGrid> named_;
   std::optional<LonLatGrid> lines_;  // of a file with a grid along axes
   std::optional<CellSet> cells_;
+  LonLatGrid given_lines_;  // of a file with bounds of axes
   std::optional<LonLatAxes> axes_;
   std::vector<LonLat> places_;  // of a file without axes
   std::vector<std::uint64_t> shape_;

@@ -162,7 +162,7 @@ class ZonalJob {
     }
     const FieldSet written =
         fields_at_targets(in, std::move(arrays), source_, target_, options_.history);
-    const WeightSide side = target_.description(is_netcdf_file(out));
+    const WeightSide side = target_.description(is_netcdf_file(out), execution_);
     RegridOutput output(out, written, side, options_.netcdf, execution_);
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {
       compute(a, output);

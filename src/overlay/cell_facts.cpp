@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -132,6 +133,24 @@ std::vector<LonLat> CellSet::corners() const {
   const system::ArithmeticScope arithmetic;
   if (!facts_->has_corners) return {};
   return lines() != nullptr ? corners_of_lines(*lines()) : corners_of_rings(rings());
+}
+
+std::vector<LonLat> CellSet::bounds() const {
+  std::vector<LonLat> bounds = corners();
+  if (bounds.empty()) return bounds;
+  const std::size_t of_cell = bounds.size() / num_cells();
+  const std::vector<LonLat> places = this->places();
+  const auto is_zero = [](const LonLat& corner) { return corner == LonLat{0, 0}; };
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < num_cells(); ++i) {
+    const auto cell = std::span(bounds).subspan(i * of_cell, of_cell);
+    if (std::ranges::all_of(cell, is_zero)) std::ranges::fill(cell, LonLat{missing, missing});
+    for (LonLat& corner : cell) {
+      const double turns = std::round((places[i].lon_deg - corner.lon_deg) / 360);
+      if (std::isfinite(turns)) corner.lon_deg += 360 * turns;
+    }
+  }
+  return bounds;
 }
 
 WeightSide weight_side(const CellSet& cells) {

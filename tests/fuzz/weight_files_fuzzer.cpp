@@ -144,6 +144,7 @@ void test_cells(const CellSet& cells, const CellTable& table) {
   const WeightSide side = weight_side(cells.with_facts(cells.facts()));
   require(side.points == cells.places() && side.points.size() == size, "a cell has a place");
   const std::size_t num_corners = cells.corners().size();
+  require(cells.bounds().size() == num_corners, "each corner is one of the bounds");
   require(side.corners.size() == num_corners && (num_corners == 0 || num_corners % size == 0),
           "a cell has as many corners as others");
 }

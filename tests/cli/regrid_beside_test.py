@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What stands beside the fields in the output of `rondel regrid`: the bounds of the target's cells.
+
+Without netCDF4-python ctest says "Skipped".
+"""
+
+import importlib.util
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if importlib.util.find_spec("netCDF4") is None:
+    sys.exit(77)
+import netCDF4
+import numpy as np
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+LON, LAT = np.arange(0.0, 360, 10) + 5, np.arange(-90.0, 90, 10) + 5
+UNITS = {"lat": "degrees_north", "lon": "degrees_east"}
+
+
+def add(file, name, dimensions, values, kind="f8", **attributes):
+    variable = file.createVariable(name, kind, dimensions)
+    variable.setncatts(attributes)
+    variable[...] = values
+    return variable
+
+
+def write(path, lat=LAT, lon=LON, **sizes):
+    """A file with axes, and further dimensions."""
+    file = netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC")
+    for name, values in (("lat", lat), ("lon", lon)):
+        file.createDimension(name, len(values))
+        add(file, name, (name,), values, units=UNITS[name])
+    for name, size in sizes.items():
+        file.createDimension(name, size)
+    return file
+
+
+def overlaps(edges, others):
+    """The lengths that the pieces between edges share with those between others."""
+    low = np.maximum(edges[:-1, None], others[None, :-1])
+    return np.clip(np.minimum(edges[1:, None], others[None, 1:]) - low, 0, None)
+
+
+def on_sphere(lon, lat):
+    lon, lat = np.radians(lon), np.radians(lat)
+    return np.stack([np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], -1)
+
+
+# Quadrangles of five rows of nodes and six columns, in a part of the sphere where no side is on an axis.
+NODE_LON, NODE_LAT = np.meshgrid(np.arange(6) * 11.0 + 160, np.arange(5) * 9.0 - 11)
+NODE_LON, NODE_LAT = NODE_LON + 0.2 * NODE_LAT, NODE_LAT + 0.05 * (NODE_LON - 160)
+CORNERS = np.stack([np.stack([each[:-1, :-1], each[:-1, 1:], each[1:, 1:], each[1:, :-1]], -1) for each in (NODE_LON, NODE_LAT)], -1)
+
+
+def write_curvilinear(file, missing=()):
+    corners = CORNERS.copy()
+    corners[missing or (slice(0),)] = np.nan
+    for name, size in (("j", 4), ("i", 5), ("corner", 4)):
+        file.createDimension(name, size)
+    for k, name in enumerate(("lon", "lat")):
+        add(file, name, ("j", "i"), CORNERS[..., k].mean(-1), units=UNITS[name], bounds=f"{name}_edges")
+        add(file, f"{name}_edges", ("j", "i", "corner"), corners[..., k])
+
+
+def write_ugrid(file):
+    numbers = np.arange(30).reshape(5, 6)
+    faces = np.stack([numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1]], -1).reshape(-1, 4)
+    for name, size in (("node", 30), ("face", 20), ("four", 4)):
+        file.createDimension(name, size)
+    add(file, "mesh", (), 0, "i4", cf_role="mesh_topology", topology_dimension=2, node_coordinates="x y", face_node_connectivity="faces")
+    add(file, "x", ("node",), NODE_LON.ravel(), units="degrees_east")
+    add(file, "y", ("node",), NODE_LAT.ravel(), units="degrees_north")
+    add(file, "faces", ("face", "four"), faces, "i4", start_index=0)
+
+
+def write_scrip(file):
+    for name, size in (("grid_size", 20), ("grid_corners", 4), ("grid_rank", 1)):
+        file.createDimension(name, size)
+    add(file, "grid_dims", ("grid_rank",), 20, "i4")
+    for k, name in enumerate(("lon", "lat")):
+        add(file, f"grid_center_{name}", ("grid_size",), CORNERS[..., k].mean(-1).ravel(), units="degrees")
+        add(file, f"grid_corner_{name}", ("grid_size", "grid_corners"), CORNERS[..., k].reshape(20, 4), units="degrees")
+    add(file, "grid_imask", ("grid_size",), 1, "i4")
+
+
+class Beside(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tool(self, *arguments, status=0):
+        done = subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return [line.removeprefix("rondel: ") for line in done.stderr.splitlines()]
+
+    def read(self, path):
+        file = netCDF4.Dataset(self.folder / path)
+        self.addCleanup(file.close)
+        file.set_auto_mask(False)
+        return file
+
+    def test_bounds_of_axes_are_those_of_the_target(self):
+        """Rows of unequal widths, from the north, and a longitude whose cells begin before 0; the means of a second
+        regridding are by areas between parallels.
+        """
+        field = np.random.default_rng(1).normal(size=(18, 36))
+        with write(self.folder / "in.nc") as file:
+            add(file, "t", ("lat", "lon"), field)
+        lat_edges, lon_edges = np.array([90.0, 61, 45, -20, -90]), np.array([-30.0, 50, 110, 330])
+        centers = np.array([80.0, 50, 10, -60]), np.array([0.0, 100, 200])
+        pairs = {"lat": np.stack([lat_edges[:-1], lat_edges[1:]], -1), "lon": np.stack([lon_edges[:-1], lon_edges[1:]], -1)}
+        for bounded in (("lat", "lon"), ("lat",), ()):
+            with write(self.folder / "target.nc", *centers, side=2) as file:
+                for name in bounded:
+                    file[name].bounds = f"{name}_sides"
+                    add(file, f"{name}_sides", (name, "side"), pairs[name])
+            for method in ("conservative", "nearest"):
+                self.run_tool("regrid", "in.nc", "target.nc", "--method", method, "-o", "out.nc")
+                out = self.read("out.nc")
+                for name in ("lat", "lon"):
+                    self.assertEqual(getattr(out[name], "bounds", ""), f"{name}_bnds" if name in bounded else "")
+                    if name in bounded:
+                        np.testing.assert_array_equal(out[f"{name}_bnds"][:], pairs[name])
+            if len(bounded) < 2:
+                continue
+            self.run_tool("regrid", "in.nc", "target.nc", "-o", "out.nc")
+            self.run_tool("regrid", "out.nc", "grid:4x3", "-o", "back.nc")
+            # Longitudes of the last column continue beyond a turn.
+            sines, turns = (np.sin(np.radians(each)) for each in (lat_edges[::-1], np.linspace(-90, 90, 4))), np.linspace(-180, 180, 5)
+            rows = overlaps(*list(sines)[::-1])[:, ::-1]
+            columns = sum(overlaps(turns, lon_edges + turn) for turn in (-360, 0))
+            values = self.read("out.nc")["t"][:]
+            means = rows @ values @ columns.T / np.outer(rows.sum(1), columns.sum(1))
+            np.testing.assert_allclose(self.read("back.nc")["t"][:], means, atol=1e-12)
+
+    def test_bounds_of_meshes_are_the_corners_of_the_target(self):
+        with write(self.folder / "in.nc") as file:
+            add(file, "t", ("lat", "lon"), np.random.default_rng(2).normal(size=(18, 36)))
+        for content in (write_curvilinear, write_ugrid, write_scrip):
+            with netCDF4.Dataset(self.folder / "mesh.nc", "w", format="NETCDF3_CLASSIC") as file:
+                content(file)
+            dimensions = ("y", "x") if content is write_curvilinear else ("cell",)
+            for method in ("conservative", "linear"):
+                self.run_tool("regrid", "in.nc", "mesh.nc", "--method", method, "-o", "out.nc")
+                out = self.read("out.nc")
+                self.assertEqual(out["lat"].bounds, "lat_bnds", content)
+                self.assertEqual(out["lon_bnds"].dimensions, (*dimensions, "nv"))
+                lon, lat = (out[f"{name}_bnds"][:].reshape(20, -1) for name in ("lon", "lat"))
+                self.assertTrue((abs(lon - out["lon"][:].reshape(20, 1)) <= 180).all())
+                away = np.linalg.norm(on_sphere(lon, lat)[:, :, None] - on_sphere(*CORNERS.reshape(20, 1, 4, 2).transpose(3, 0, 1, 2)), axis=-1)
+                self.assertLess(away.min(1).max(), 1e-14)
+                self.assertLess(away.min(2).max(), 1e-14)
+                # The same cells as those of the mesh itself.
+                self.run_tool("regrid", "out.nc", "grid:6", "-o", "back.nc")
+                self.run_tool("regrid", "out.nc", "grid:6", "--source", "mesh.nc", "-o", "wanted.nc")
+                found, wanted = (self.read(path)["t"][:] for path in ("back.nc", "wanted.nc"))
+                self.assertGreater(np.isfinite(wanted).sum(), 10)
+                np.testing.assert_allclose(found, wanted, atol=1e-12)
+
+    def test_cells_without_corners_have_no_bounds(self):
+        with write(self.folder / "in.nc") as file:
+            add(file, "t", ("lat", "lon"), 1.0)
+        with netCDF4.Dataset(self.folder / "mesh.nc", "w", format="NETCDF3_CLASSIC") as file:
+            write_curvilinear(file, missing=(1, 2))
+        self.run_tool("regrid", "in.nc", "mesh.nc", "-o", "out.nc")
+        lon = self.read("out.nc")["lon_bnds"][:]
+        self.assertTrue(np.isnan(lon[1, 2]).all())
+        self.assertEqual(np.isnan(lon).sum(), 4)
+        said = self.run_tool("regrid", "out.nc", "grid:6", "-o", "back.nc")
+        self.assertEqual(len(said), 1)
+        self.assertIn("corners", said[0])
+        # Nodes of a mesh have no cells of their own.
+        with netCDF4.Dataset(self.folder / "mesh.nc", "w", format="NETCDF3_CLASSIC") as file:
+            write_ugrid(file)
+        self.run_tool("regrid", "in.nc", "mesh.nc:x", "--method", "nearest", "-o", "out.nc")
+        out = self.read("out.nc")
+        self.assertEqual(out["t"].size, 30)
+        self.assertNotIn("lon_bnds", out.variables)
+
+
+if __name__ == "__main__":
+    unittest.main()
