@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -101,14 +102,21 @@ RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHe
 /// Tells which variables describe a mesh or a grid and are no fields: numbers of neighbors and
 /// corners, coordinates of corners, edges and centers, and masks. It knows MPAS, ICON, UGRID (a
 /// `mesh_topology`, what it names, and `cf_role`), SCRIP, ESMF, OASIS, Exodus, and pairs of NEMO such as
-/// `glamu` and `gphiu`. Areas and measures of quality are fields.
+/// `glamu` and `gphiu`. Measures of quality are fields, and areas are are_measures_of_cells().
 /// \returns true or false for each variable
 RONDEL_API std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables);
 
+/// Tells which variables have the areas or volumes of cells, whose means are no areas of other cells:
+/// those that an attribute `cell_measures` names, that have the standard_name `cell_area`, or that
+/// models call so (`areaCell`, `areacello`, `TAREA`; `area` with units of areas).
+/// \returns true or false for each variable
+RONDEL_API std::vector<bool> are_measures_of_cells(std::span<const VariableHeader> variables);
+
 /// Tells which variables have values that depend on place: those with a dimension of any longitudes
 /// and latitudes, of the nodes, edges or faces of a mesh (by UGRID, or as MPAS, ICON, FESOM and FVCOM
-/// call them), or of an axis x or y, as ROMS, WRF and MOM call staggered ones, too; and those that
-/// say by `mesh` and `location` that they are on a mesh.
+/// call them), or of an axis x or y, as ROMS, WRF and MOM call staggered ones, too, or with one into
+/// which `compress` has gathered some of these (CF 8.2); and those that say by `mesh` and `location`
+/// that they are on a mesh.
 /// \returns true or false for each variable
 RONDEL_API std::vector<bool> are_at_places(std::span<const VariableHeader> variables);
 
@@ -116,6 +124,15 @@ RONDEL_API std::vector<bool> are_at_places(std::span<const VariableHeader> varia
 /// stored, so that values at other places do not have it: `coordinates`, `grid_mapping`, `mesh`,
 /// `_FillValue` ...
 RONDEL_API bool is_attribute_of_places(std::string_view name);
+
+/// Returns an attribute that names other variables, as it holds where some of these have other names
+/// or are missing. Of the lists `coordinates` and `ancillary_variables` it keeps the names that are
+/// there; `bounds`, `climatology`, `formula_terms`, and `compress`, which names dimensions, hold if
+/// all are there.
+/// \param name_of  returns the name that a variable or dimension has there; an empty text if it is not
+/// \returns an empty text if the attribute does not hold, and for one of another name
+RONDEL_API std::string with_names(std::string_view attribute, const std::string& text,
+                                  const std::function<std::string(const std::string&)>& name_of);
 
 /// Tells whether the attributes of a file say that its mesh is in a plane, so that its longitudes
 /// and latitudes mean nothing: `on_a_sphere = NO` of MPAS.

@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <iterator>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "formats/cf_names.h"
 #include "formats/netcdf_cells.h"
@@ -124,6 +127,23 @@ class GridParts {
   std::vector<std::string> named_;  // by a topology of UGRID
 };
 
+// True for a name of areas of cells: in MPAS, ICON, CMIP, SCRIP, ESMF, POP and CICE; or for `area`, as in
+// CESM and NEMO, if the units are those of areas.
+bool is_named_like_area(const VariableHeader& variable) {
+  constexpr std::array<std::string_view, 13> names = {
+      "areaCell",  "areaTriangle", "cell_area", "dual_area",    "areacella",
+      "areacello", "areacellr",    "grid_area", "element_area", "elementArea",
+      "tarea",     "uarea",        "cell_areas"};
+  constexpr std::array<std::string_view, 12> units = {
+      "m2",   "m^2",          "m**2",      "km2",        "km^2", "km**2",
+      "cm^2", "centimeter^2", "steradian", "steradians", "sr",   "radians^2"};
+  const std::string lower = formats::lower_case(variable.name);
+  if (lower == "area") {
+    return std::ranges::count(units, formats::without_blanks(variable.text("units"))) != 0;
+  }
+  return std::ranges::count(names, variable.name) != 0 || std::ranges::count(names, lower) != 0;
+}
+
 }  // namespace
 
 std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables) {
@@ -132,6 +152,39 @@ std::vector<bool> parts_of_grids(std::span<const VariableHeader> variables) {
   result.reserve(variables.size());
   for (const VariableHeader& variable : variables) result.push_back(parts.has(variable));
   return result;
+}
+
+std::vector<bool> are_measures_of_cells(std::span<const VariableHeader> variables) {
+  std::set<std::string, std::less<>> named;
+  for (const VariableHeader& variable : variables) {
+    for (std::string& word : formats::words_of(variable.text("cell_measures"))) {
+      if (!word.ends_with(':')) named.insert(std::move(word));
+    }
+  }
+  std::vector<bool> result;
+  result.reserve(variables.size());
+  for (const VariableHeader& variable : variables) {
+    result.push_back(named.contains(variable.name) ||
+                     variable.text("standard_name") == "cell_area" || is_named_like_area(variable));
+  }
+  return result;
+}
+
+std::string with_names(std::string_view attribute, const std::string& text,
+                       const std::function<std::string(const std::string&)>& name_of) {
+  const bool is_list = attribute == "coordinates" || attribute == "ancillary_variables";
+  const bool is_formula = attribute == "formula_terms";
+  const bool needs_all =
+      is_formula || attribute == "bounds" || attribute == "climatology" || attribute == "compress";
+  if (!is_list && !needs_all) return {};
+  std::string kept;
+  for (const std::string& word : formats::words_of(text)) {
+    // In "ps: surface" the first word is a term of the formula.
+    const std::string name = is_formula && word.ends_with(':') ? word : name_of(word);
+    if (name.empty() && needs_all) return {};
+    if (!name.empty()) kept.append(kept.empty() ? "" : " ").append(name);
+  }
+  return kept;
 }
 
 bool formats::has_mesh(std::span<const VariableHeader> variables) {

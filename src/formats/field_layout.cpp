@@ -37,7 +37,8 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       wanted_(wanted.places),
       headers_(headers_of(file)),
       parts_of_grids_(parts_of_grids(headers_)),
-      are_at_places_(are_at_places(headers_)) {
+      are_at_places_(are_at_places(headers_)),
+      are_measures_(are_measures_of_cells(headers_)) {
   // Places that are not as many as the points cannot be compared with them.
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
   wanted_places_ =
@@ -218,13 +219,13 @@ std::optional<FieldDimensions> FieldDimensionFinder::layout(const io::VariableIn
   return by_lengths(variable);
 }
 
-// The tests go from what is certain to what only names suggest: an axis, degrees, a part of a mesh,
-// a coordinate, bounds.
+// The tests go from what is certain to what only names suggest: an axis, degrees, a part of a mesh or
+// the areas of its cells, a coordinate, bounds.
 bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) const {
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
-  if (is_named_like_degrees(header) || parts_of_grids_[index]) return true;
+  if (is_named_like_degrees(header) || parts_of_grids_[index] || are_measures_[index]) return true;
   if (coordinate_evidence(header, CoordinateKind::lon) > 0 ||
       coordinate_evidence(header, CoordinateKind::lat) > 0) {
     return true;
@@ -235,6 +236,10 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
 
 bool FieldDimensionFinder::is_at_places(const io::VariableInFile& variable) const {
   return are_at_places_[static_cast<std::size_t>(&variable - file_.variables().data())];
+}
+
+bool FieldDimensionFinder::is_measure_of_cells(const io::VariableInFile& variable) const {
+  return are_measures_[static_cast<std::size_t>(&variable - file_.variables().data())];
 }
 
 bool FieldDimensionFinder::is_lost(const io::VariableInFile& variable) const {

@@ -90,11 +90,13 @@ class FieldDimensionFinder {
   // Returns a sentence on the other grids that variables have for which a layout was asked; an
   // empty text if there are none.
   [[nodiscard]] std::string remark_on_grids() const;
-  // True if the variable is a coordinate, bounds, or a part of a mesh or grid: it is no field,
-  // unless it is named.
+  // True if the variable is a coordinate, bounds, a part of a mesh or grid, or has the areas of its
+  // cells: it is no field, unless it is named.
   [[nodiscard]] bool is_auxiliary(const io::VariableInFile& variable) const;
   // True if the values of the variable depend on place, here or elsewhere (are_at_places()).
   [[nodiscard]] bool is_at_places(const io::VariableInFile& variable) const;
+  // True if the variable has the areas or volumes of cells (are_measures_of_cells()).
+  [[nodiscard]] bool is_measure_of_cells(const io::VariableInFile& variable) const;
   // True if the variable is a number or a text without dimensions, the bounds of another axis than
   // those of the points, or labels along a dimension of their name: these are no fields and no axes
   // of numbers.
@@ -202,6 +204,7 @@ class FieldDimensionFinder {
   // The headers are by variable of the file, and so are these: true for parts of grids and meshes.
   std::vector<bool> parts_of_grids_;
   std::vector<bool> are_at_places_;
+  std::vector<bool> are_measures_;
   // Places that were read. References to them stay valid when others are added.
   std::deque<KnownPlaces> known_;
   std::optional<SetsOfPlaces> sets_of_places_;

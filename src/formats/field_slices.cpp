@@ -11,8 +11,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -193,8 +196,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   }
   require_distinct(wanted.names);
   wanted.names.empty() ? add_all() : keep_named();
-  name_bounds();
-  name_coordinates();
+  name_variables();
   if (fields_.arrays.empty()) {
     std::string why;
     if (fields_.num_points == 0) why = remark_on_units(headers_of(file));
@@ -227,7 +229,7 @@ bool FieldSlices::add(const io::VariableInFile& variable) {
   std::optional<FieldDimensions> layout = layouts_.layout(variable);
   if (!layout) return false;
   add_with_layout(variable, std::move(*layout));
-  add_axes(variable, sources_.back().layout, fields_.axes);
+  add_axes(variable, sources_.back().layout.leading, fields_.axes);
   return true;
 }
 
@@ -238,7 +240,7 @@ bool FieldSlices::add_one_of_several(const std::string& name) {
     std::optional<FieldDimensions> layout = layouts_.layout(*variable);
     if (!layout || layout->leading.empty()) continue;
     std::vector<FieldArray> axes;
-    add_axes(*variable, *layout, axes);
+    add_axes(*variable, layout->leading, axes);
     FieldArray several = array_of(file_, *variable, layout->leading, true);
     several.name = variable->name;
     const std::vector<std::string> names = names_of_fields(several, axes);
@@ -302,9 +304,11 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
 void FieldSlices::add_all() {
   std::vector<ApartVariable> apart;
   NameList elsewhere;
+  NameList measures;
   std::vector<std::string> refused;
   for (const io::VariableInFile& variable : file_.variables()) {
     if (layouts_.is_lost(variable)) apart.push_back({&variable, true});
+    if (layouts_.is_measure_of_cells(variable)) measures.add(variable.name);
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
       if (add(variable)) continue;
@@ -330,6 +334,10 @@ void FieldSlices::add_all() {
     fields_.remarks.push_back("left out, as their types are those that the file defines itself: " +
                               unread.text());
   }
+  if (!measures.text().empty()) {
+    fields_.remarks.push_back("left out, as they are areas or volumes of cells: " +
+                              measures.text());
+  }
   keep_others(apart);
   if (elsewhere.text().empty()) return;
   const std::string names = layouts_.names_of_places();
@@ -342,6 +350,7 @@ void FieldSlices::add_all() {
 // these, or at other places, would be wrong beside values at new points.
 void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
   NameList without_points;
+  NameList gathered;
   NameList texts;
   NameList large;
   NameList unknown;
@@ -355,6 +364,8 @@ void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
       large.add(variable.name);
     } else if (!may_be_kept && variable.type == io::NetcdfType::text) {
       texts.add(variable.name);
+    } else if (!may_be_kept && !gathered_dimension(variable).empty()) {
+      gathered.add(variable.name + " (" + gathered_dimension(variable) + ")");
     } else {
       without_points.add(variable.name);
     }
@@ -363,6 +374,7 @@ void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
     if (!names.text().empty()) fields_.remarks.push_back("left out, as they " + why + names.text());
   };
   tell("have no values at the points: ", without_points);
+  tell("are compressed by gathering: ", gathered);
   tell("are texts of places: ", texts);
   tell("have no values at the points and more than " + std::to_string(most_of_other) +
            " of their own: ",
@@ -397,6 +409,15 @@ std::string FieldSlices::unknown_dimension(const io::VariableInFile& variable) c
   return {};
 }
 
+std::string FieldSlices::gathered_dimension(const io::VariableInFile& variable) const {
+  for (const std::size_t dimension : variable.dimensions) {
+    const std::string& name = file_.dimensions()[dimension].name;
+    const io::VariableInFile* const index = file_.find(name);
+    if (index != nullptr && !io::netcdf_text(index->attributes, "compress").empty()) return name;
+  }
+  return {};
+}
+
 bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   if (!extras_.has_others || variable.num_values > most_of_other) return false;
   if (variable.type == io::NetcdfType::text) return keep_text(variable);
@@ -408,6 +429,7 @@ bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   if (is_rounded) tell_of_rounding(variable);
   ValueRules(variable).apply(array.values);
   fields_.others.push_back(std::move(array));
+  add_axes(variable, all, fields_.axes);
   return true;
 }
 
@@ -438,6 +460,7 @@ bool FieldSlices::keep_text(const io::VariableInFile& variable) {
     array.characters = file_.characters(variable);
   }
   fields_.others.push_back(std::move(array));
+  add_axes(variable, all, fields_.axes);
   return true;
 }
 
@@ -477,34 +500,53 @@ void FieldSlices::keep_named() {
   }
 }
 
-void FieldSlices::name_coordinates() {
-  for (std::size_t a = 0; a < sources_.size(); ++a) {
-    std::string kept;
-    const std::vector<io::NetcdfAttribute>& attributes = sources_[a].variable->attributes;
-    for (const std::string& name : words_of(io::netcdf_text(attributes, "coordinates"))) {
-      if (std::ranges::count(fields_.others, name, &FieldArray::name) == 0) continue;
-      kept += (kept.empty() ? "" : " ") + name;
+// Attributes name variables as the file does; what is written has no slashes in its names.
+void FieldSlices::name_variables() {
+  std::map<std::string, const io::VariableInFile*, std::less<>> in_file;
+  for (const io::VariableInFile& variable : file_.variables()) {
+    in_file.emplace(written_name(variable.name), &variable);
+  }
+  std::set<std::string> names;
+  std::set<std::string> dimensions;
+  std::set<std::string> others;  // than axes, which need not be listed as coordinates
+  const std::array<std::vector<FieldArray>*, 3> all = {&fields_.arrays, &fields_.axes,
+                                                       &fields_.others};
+  for (const std::vector<FieldArray>* const arrays : all) {
+    for (const FieldArray& array : *arrays) {
+      names.insert(array.name);
+      if (arrays != &fields_.axes) others.insert(array.name);
+      dimensions.insert(array.dimensions.begin(), array.dimensions.end());
     }
-    if (!kept.empty()) fields_.arrays[a].attributes.emplace_back("coordinates", kept);
+  }
+  for (std::vector<FieldArray>* const arrays : all) {
+    for (FieldArray& array : *arrays) {
+      const auto found = in_file.find(array.name);
+      // A field that is one of several may have a name of its own.
+      const bool is_field = arrays == &fields_.arrays;
+      const io::VariableInFile* const variable =
+          is_field ? sources_[static_cast<std::size_t>(&array - arrays->data())].variable
+          : found == in_file.end() ? nullptr
+                                   : found->second;
+      if (variable == nullptr) continue;
+      for (const io::NetcdfAttribute& attribute : variable->attributes) {
+        const std::set<std::string>& known = attribute.name == "compress"      ? dimensions
+                                             : attribute.name == "coordinates" ? others
+                                                                               : names;
+        const std::string text = with_names(attribute.name, attribute.text, [&](std::string name) {
+          name = written_name(std::move(name));
+          return known.contains(name) ? name : std::string();
+        });
+        if (!text.empty()) array.attributes.emplace_back(attribute.name, text);
+      }
+    }
   }
 }
 
-void FieldSlices::name_bounds() {
-  for (FieldArray& axis : fields_.axes) {
-    const io::VariableInFile* const variable = file_.find(axis.name);
-    if (variable == nullptr) continue;
-    for (const char* const role : {"bounds", "climatology"}) {
-      const std::string name = io::netcdf_text(variable->attributes, role);
-      if (std::ranges::count(fields_.others, name, &FieldArray::name) == 0) continue;
-      axis.attributes.emplace_back(role, name);
-    }
-  }
-}
-
-// Adds the coordinates along the leading dimensions, unless they are known already.
-void FieldSlices::add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
+// Adds the coordinates along some dimensions, unless they are known already.
+void FieldSlices::add_axes(const io::VariableInFile& variable,
+                           const std::vector<std::size_t>& dimensions,
                            std::vector<FieldArray>& axes) {
-  for (const std::size_t d : layout.leading) {
+  for (const std::size_t d : dimensions) {
     const std::string& name = file_.dimensions()[variable.dimensions[d]].name;
     const io::VariableInFile* const axis = file_.find(name);
     const bool is_known = std::ranges::count(axes, written_name(name), &FieldArray::name) != 0;

@@ -71,7 +71,10 @@ class FieldSlices {
   [[nodiscard]] bool depends_on_place(const io::VariableInFile& variable) const;
   // Returns a dimension of the variable of which nothing says what it counts, or an empty text.
   [[nodiscard]] std::string unknown_dimension(const io::VariableInFile& variable) const;
-  // Adds a variable that has no points to `others`; returns false if it is left out.
+  // Returns the dimension of the variable whose index says that places are gathered in it (CF 8.2), or
+  // an empty text.
+  [[nodiscard]] std::string gathered_dimension(const io::VariableInFile& variable) const;
+  // Adds a variable that has no points to `others`, and the axes along its dimensions; returns false if it is left out.
   bool keep_other(const io::VariableInFile& variable);
   // Adds a remark on integers of 64 bits.
   void tell_of_rounding(const io::VariableInFile& variable);
@@ -83,12 +86,11 @@ class FieldSlices {
   void keep_named();
   // Throws BadValue if two of the names, by which the fields were read, mean the same field.
   void require_distinct(std::span<const std::string> names) const;
-  // Names the bounds of axes that are among `others`.
-  void name_bounds();
-  // Names the coordinates of fields that are among `others`, such as a height.
-  void name_coordinates();
-  // Adds to `axes` the coordinates along the leading dimensions of a variable.
-  void add_axes(const io::VariableInFile& variable, const FieldDimensions& layout,
+  // Adds the attributes that name variables which are kept, such as the bounds of an axis and the
+  // height of a field.
+  void name_variables();
+  // Adds to `axes` the coordinates along some dimensions of a variable.
+  void add_axes(const io::VariableInFile& variable, const std::vector<std::size_t>& dimensions,
                 std::vector<FieldArray>& axes);
   // Reads fields `first` ... of a variable, as many as fit, with the points that are left out.
   void read_all_points(const SlicedVariable& source, std::size_t first, std::span<double> out,

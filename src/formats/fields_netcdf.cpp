@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <functional>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -242,56 +244,66 @@ class NetcdfSink : public FieldSink {
       out_.add_attribute({attribute.name, type_named(attribute.type), {}, attribute.numbers});
     }
     taken_ = points_.names();
+    // Attributes name variables that may come later, so names and dimensions are chosen first.
     std::vector<std::vector<std::size_t>> leading;
-    for (const FieldArray& array : fields.arrays) {
-      leading.emplace_back();
-      for (std::size_t d = 0; d < array.shape.size(); ++d) {
-        leading.back().push_back(dimension(array.dimensions[d], array.shape[d]).number);
-      }
+    for (const FieldArray& array : fields.arrays) leading.push_back(dimensions_of(array));
+    for (const FieldArray& axis : fields.axes) {
+      own_names_.emplace(axis.name, dimension(axis.dimensions[0], axis.shape[0]).own_name);
+    }
+    std::vector<io::NetcdfVariable> others;
+    for (const FieldArray& other : fields.others) {
+      others.push_back(variable({}, other.is_text ? NetcdfType::text : NetcdfType::float64,
+                                dimensions_of(other)));
+      // Labels along a dimension of their name share the name with it, as axes do.
+      const bool is_label =
+          other.is_text && !other.dimensions.empty() && other.dimensions.front() == other.name;
+      others.back().name = is_label ? dimension(other.name, other.shape.front()).own_name
+                                    : take_name(netcdf_name(other.name), taken_);
+      own_names_.emplace(other.name, others.back().name);
+    }
+    const std::vector<std::string> names = take_names(fields);
+    for (std::size_t a = 0; a < leading.size(); ++a) {
+      own_names_.emplace(fields.arrays[a].name, names[a]);
     }
     for (const FieldArray& axis : fields.axes) {
       const LeadingDimension& along = dimension(axis.dimensions[0], axis.shape[0]);
       out_.add_variable(
-          {along.own_name, NetcdfType::float64, {along.number}, with_attributes(axis)});
+          {along.own_name, NetcdfType::float64, {along.number}, with_own_names(axis)});
     }
-    for (const FieldArray& other : fields.others) {
-      std::vector<std::size_t> dimensions;
-      for (std::size_t d = 0; d < other.shape.size(); ++d) {
-        dimensions.push_back(dimension(other.dimensions[d], other.shape[d]).number);
-      }
-      // Labels along a dimension of their name share the name with it, as axes do.
-      const bool is_label =
-          other.is_text && !dimensions.empty() && other.dimensions.front() == other.name;
-      out_.add_variable({is_label ? dimension(other.name, other.shape.front()).own_name
-                                  : take_name(netcdf_name(other.name), taken_),
-                         other.is_text ? NetcdfType::text : NetcdfType::float64,
-                         std::move(dimensions), with_attributes(other)});
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      others[k].attributes = with_own_names(fields.others[k]);
+      out_.add_variable(std::move(others[k]));
     }
     points_.define(out_, [this](const char* name, std::uint64_t length) {
       return dimension(name, length).number;
     });
-    define_values(fields, leading);
+    define_values(fields, leading, names);
+  }
+
+  // Takes the names of the arrays and the columns.
+  std::vector<std::string> take_names(const FieldSet& fields) {
+    std::vector<VariableHeader> headers;
+    for (const FieldArray& array : fields.arrays) {
+      std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
+      remove_marks_of_coordinates(attributes);
+      headers.push_back(header_with(netcdf_name(array.name), attributes));
+    }
+    std::ranges::move(columns_.headers(), std::back_inserter(headers));
+    return take_names_of_fields(std::move(headers), taken_);
   }
 
   // Defines the arrays and the columns. `leading` has the dimensions of each array before those of
-  // the points.
-  void define_values(const FieldSet& fields, const std::vector<std::vector<std::size_t>>& leading) {
-    std::vector<VariableHeader> headers;
-    std::vector<std::vector<io::NetcdfAttribute>> attributes_of_all;
-    for (const FieldArray& array : fields.arrays) {
-      attributes_of_all.push_back(with_attributes(array));
-      remove_marks_of_coordinates(attributes_of_all.back());
-      headers.push_back(header_with(netcdf_name(array.name), attributes_of_all.back()));
-    }
-    std::ranges::move(columns_.headers(), std::back_inserter(headers));
-    const std::vector<std::string> names = take_names_of_fields(std::move(headers), taken_);
+  // the points, and `names` the names of all.
+  void define_values(const FieldSet& fields, const std::vector<std::vector<std::size_t>>& leading,
+                     const std::vector<std::string>& names) {
     columns_.define(out_, points_.dimensions().front(), std::span(names).subspan(leading.size()),
                     taken_);
     for (std::size_t a = 0; a < leading.size(); ++a) {
       const FieldArray& array = fields.arrays[a];
       std::vector<std::size_t> dimensions = leading[a];
       dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
-      std::vector<io::NetcdfAttribute>& attributes = attributes_of_all[a];
+      std::vector<io::NetcdfAttribute> attributes = with_own_names(array);
+      remove_marks_of_coordinates(attributes);
       if (fields.is_fill_marked) {
         attributes.push_back({"_FillValue", type_of(array), {}, {fields.fill}});
       }
@@ -299,6 +311,34 @@ class NetcdfSink : public FieldSink {
       out_.add_variable({names[a], type_of(array), std::move(dimensions), attributes});
       sizes_.push_back({array.num_fields() * fields.num_points, array.is_single});
     }
+  }
+
+  // Returns the attributes of an array, in which variables and dimensions have the names that they
+  // get here.
+  std::vector<io::NetcdfAttribute> with_own_names(const FieldArray& array) {
+    std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
+    for (io::NetcdfAttribute& attribute : attributes) {
+      const bool is_of_dimensions = attribute.name == "compress";
+      const std::string text = with_names(attribute.name, attribute.text, [&](std::string name) {
+        if (is_of_dimensions) {
+          const auto known = std::ranges::find(known_, name, &LeadingDimension::name);
+          return known == known_.end() ? name : known->own_name;
+        }
+        const auto known = own_names_.find(name);
+        return known == own_names_.end() ? name : known->second;
+      });
+      if (!text.empty()) attribute.text = text;
+    }
+    return attributes;
+  }
+
+  // Returns the numbers of the dimensions of an array, but for those of the points.
+  std::vector<std::size_t> dimensions_of(const FieldArray& array) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t d = 0; d < array.shape.size(); ++d) {
+      numbers.push_back(dimension(array.dimensions[d], array.shape[d]).number);
+    }
+    return numbers;
   }
 
   // A dimension of the file that is not one of the points.
@@ -333,6 +373,8 @@ class NetcdfSink : public FieldSink {
   ColumnsOut columns_;
   // Names of variables and dimensions that are in use.
   std::set<std::string> taken_;
+  // The names that axes, arrays and others get, by the names that they have in the set.
+  std::map<std::string, std::string, std::less<>> own_names_;
   std::vector<LeadingDimension> known_;
   std::vector<std::string> unlimited_;  // names of dimensions that may grow
 };

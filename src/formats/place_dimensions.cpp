@@ -73,18 +73,29 @@ class PlaceDimensions {
       add_all(variables[pair.lon]);
       add_all(variables[pair.lat]);
     }
+    for (const VariableHeader& variable : variables) add_gathered(variable);
   }
 
   // True if the variable has such a dimension, or says that it is on a mesh.
   [[nodiscard]] bool are_of(const VariableHeader& variable) const {
     if (variable.dimensions.empty()) return false;
     const bool is_on_mesh = !variable.text("mesh").empty() && !variable.text("location").empty();
-    return is_on_mesh || std::ranges::any_of(variable.dimensions, [&](const std::string& name) {
-             return found_.contains(name) || is_name_of_places(name);
-           });
+    return is_on_mesh || has_any_of(variable.dimensions);
   }
 
  private:
+  // True if one of the dimensions is such a dimension.
+  [[nodiscard]] bool has_any_of(const std::vector<std::string>& dimensions) const {
+    return std::ranges::any_of(dimensions, [&](const std::string& name) {
+      return found_.contains(name) || is_name_of_places(name);
+    });
+  }
+  // Adds the dimension of an index whose attribute `compress` names dimensions of places.
+  void add_gathered(const VariableHeader& index) {
+    if (index.dimensions.size() != 1) return;
+    if (has_any_of(formats::words_of(index.text("compress")))) found_.insert(index.dimensions[0]);
+  }
+
   // True for an axis of longitude, latitude, x or y, and for the longitudes or latitudes of vertices
   // or edges.
   [[nodiscard]] static bool is_axis_of_places(const VariableHeader& variable) {

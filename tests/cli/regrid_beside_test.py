@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""What stands beside the fields in the output of `rondel regrid`: the bounds of the target's cells.
+"""What stands beside the fields in the output of `rondel regrid`: the bounds of the target's cells, coordinates of
+series, and attributes that name variables; and what is no field there.
 
 Without netCDF4-python ctest says "Skipped".
 """
@@ -183,6 +184,87 @@ class Beside(unittest.TestCase):
         out = self.read("out.nc")
         self.assertEqual(out["t"].size, 30)
         self.assertNotIn("lon_bnds", out.variables)
+
+    def test_series_keep_their_coordinates(self):
+        with write(self.folder / "in.nc", time=3, plev=2, side=2, station=2) as file:
+            add(file, "time", ("time",), [1, 2, 4], units="days since 2000-01-01", bounds="time_sides")
+            add(file, "time_sides", ("time", "side"), [[0, 2], [1, 3], [3, 5]])
+            add(file, "plev", ("plev",), [500, 850], units="Pa")
+            add(file, "station", ("station",), [17, 19])
+            add(file, "height", (), 2.0, units="m")
+            add(file, "co2vmr", ("time",), [7, 8, 9], coordinates="height")
+            add(file, "nudging", ("plev",), [3, 4])
+            add(file, "of_station", ("time", "station"), np.arange(6).reshape(3, 2))
+            add(file, "orog", ("lat", "lon"), 1.0)
+        self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc")
+        before, after = self.read("in.nc"), self.read("out.nc")
+        for name in ("time", "time_sides", "plev", "station", "height", "co2vmr", "nudging", "of_station"):
+            np.testing.assert_array_equal(after[name][...], before[name][...], name)
+            self.assertEqual(after[name].dimensions, before[name].dimensions)
+        self.assertEqual(after["time"].bounds, "time_sides")
+        self.assertEqual(after["co2vmr"].coordinates, "height")
+        self.assertEqual(after["time"].units, "days since 2000-01-01")
+
+    def test_attributes_name_what_is_written(self):
+        terms = "a: a b: b p0: p0 ps: ps"
+        for target, cell in (("grid:30", "cell"), ("healpix:1", "cell_")):
+            with write(self.folder / "in.nc", lev=2, side=2, few=3) as file:
+                add(file, "lev", ("lev",), [1.0, 2], formula_terms=terms, bounds="lev_sides", positive="down")
+                add(file, "lev_sides", ("lev", "side"), [[0.5, 1.5], [1.5, 2.5]], formula_terms="a: a b: lost")
+                for name in ("a", "b"):
+                    add(file, name, ("lev",), [0.1, 0.2])
+                add(file, "p0", (), 1e5)
+                add(file, "few", ("few",), [0, 1, 3], "i4", compress="lev side")
+                add(file, "gathered", ("few",), [5.0, 6, 7])
+                add(file, "zonal", ("lat",), LAT)
+                for name in ("ps", "cell", "height"):
+                    add(file, name, ("lat", "lon"), 1.0)
+                add(file, "ta", ("lev", "lat", "lon"), 1.0, ancillary_variables="cell zonal p0", coordinates="lon height lat",
+                    cell_measures="area: ps_area", grid_mapping="crs")  # fmt: skip
+            self.run_tool("regrid", "in.nc", target, "-o", "out.nc")
+            out = self.read("out.nc")
+            self.assertEqual(out["lev"].formula_terms, terms)
+            self.assertEqual(out["lev"].bounds, "lev_sides")
+            self.assertNotIn("formula_terms", out["lev_sides"].ncattrs())
+            self.assertEqual(out["few"].compress, "lev side")
+            np.testing.assert_array_equal(out["few"][:], [0, 1, 3])
+            self.assertEqual(out["ta"].ancillary_variables, f"{cell} p0")
+            self.assertEqual(out["ta"].coordinates, "height" if target == "grid:30" else "lon lat height")
+            self.assertEqual(out[cell].dimensions, ("lat", "lon") if target == "grid:30" else ("cell",))
+            self.assertFalse({"cell_measures", "grid_mapping"} & {*out["ta"].ncattrs()} - ({"grid_mapping"} if target != "grid:30" else set()))
+        self.run_tool("regrid", "in.nc", "grid:30", "--value", "ta", "-o", "out.nc")
+        out = self.read("out.nc")
+        self.assertEqual(out["lev"].bounds, "lev_sides")
+        self.assertEqual({"formula_terms", "ancillary_variables"} & {*out["lev"].ncattrs(), *out["ta"].ncattrs()}, set())
+
+    def test_places_that_are_gathered_are_left_out(self):
+        land = np.flatnonzero(np.random.default_rng(4).uniform(size=648) < 0.4)
+        with write(self.folder / "in.nc", land=len(land), time=2) as file:
+            add(file, "land", ("land",), land, "i4", compress="lat lon")
+            add(file, "gpp", ("land",), 1.0)
+            add(file, "npp", ("time", "land"), 1.0)
+            add(file, "t", ("lat", "lon"), 1.0)
+        said = self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc")
+        self.assertEqual(said, ["in.nc: left out, as they are compressed by gathering: gpp (land), npp (land)"])
+        self.assertEqual([*self.read("out.nc").variables], ["lat", "lon", "t"])
+        said = self.run_tool("regrid", "in.nc:gpp", "grid:30", "-o", "out.nc", status=1)
+        self.assertIn("gpp", said[0])
+
+    def test_areas_of_cells_are_no_fields(self):
+        with write(self.folder / "in.nc", time=2) as file:
+            add(file, "areacella", ("lat", "lon"), 1.0, standard_name="cell_area", units="m2")
+            add(file, "area", ("lat", "lon"), 1.0, units="km2")
+            add(file, "vol", ("time", "lat", "lon"), 1.0)
+            add(file, "leaf_area", ("lat", "lon"), 1.0, units="m2")
+            add(file, "tas", ("lat", "lon"), 1.0, cell_measures="area: areacella volume: vol")
+        said = self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc")
+        self.assertEqual(said, ["in.nc: left out, as they are areas or volumes of cells: areacella, area, vol"])
+        out = self.read("out.nc")
+        self.assertEqual([*out.variables], ["lat", "lon", "leaf_area", "tas"])
+        self.assertNotIn("cell_measures", out["tas"].ncattrs())
+        # They are fields where they are asked for, as for a sum over polygons.
+        self.assertEqual(self.run_tool("regrid", "in.nc", "grid:30", "--value", "areacella", "-o", "out.nc"), [])
+        self.assertIn("areacella", self.read("out.nc").variables)
 
 
 if __name__ == "__main__":

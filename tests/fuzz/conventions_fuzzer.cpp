@@ -41,6 +41,10 @@ std::vector<VariableHeader> headers_from(ByteSource& source) {
     if (source.below(4) == 0) {
       header.texts.emplace_back("coordinates", one_of(source, names) + " " + one_of(source, names));
     }
+    if (source.below(8) == 0) header.texts.emplace_back("cell_measures", one_of(source, names));
+    if (source.below(8) == 0) {
+      header.texts.emplace_back("compress", one_of(source, dimension_names));
+    }
     for (std::size_t rank = source.below(4); rank > 0; --rank) {
       header.dimensions.push_back(one_of(source, dimension_names));
       header.shape.push_back(header.dimensions.back().size());
@@ -49,7 +53,26 @@ std::vector<VariableHeader> headers_from(ByteSource& source) {
   return headers;
 }
 
+// Attributes of a copy name nothing that is not there.
+void test_names(const std::vector<VariableHeader>& headers) {
+  const auto is_there = [&](const std::string& name) {
+    return std::ranges::count(headers, name, &VariableHeader::name) != 0;
+  };
+  const auto kept = [&](const std::string& name) { return is_there(name) ? name : std::string(); };
+  for (const VariableHeader& header : headers) {
+    for (const auto& [attribute, text] : header.texts) {
+      const std::string found = with_names(attribute, text, kept);
+      require(with_names(attribute, found, kept) == found, "what is there is kept");
+      const auto same = [](const std::string& name) { return name; };
+      require(found.empty() || with_names(attribute, text, same).size() >= found.size(),
+              "no name is added");
+    }
+  }
+}
+
 void test_variables(const std::vector<VariableHeader>& headers) {
+  test_names(headers);
+  require(are_measures_of_cells(headers).size() == headers.size(), "each variable has an answer");
   const std::vector<bool> is_part = parts_of_grids(headers);
   require(is_part.size() == headers.size(), "each variable has an answer");
   const std::vector<bool> depends_on_place = are_at_places(headers);
