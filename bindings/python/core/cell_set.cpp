@@ -292,6 +292,10 @@ void add_cell_set(nb::module_& module) {
            [](const CellSet& self) {
              return to_array<double>(unlocked([&] { return self.corners(); }));
            })
+      .def("bounds",
+           [](const CellSet& self) {
+             return to_array<double>(unlocked([&] { return self.bounds(); }));
+           })
       .def(
           "repaired",
           [](const CellSet& self, unsigned threads) {

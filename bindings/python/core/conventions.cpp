@@ -3,6 +3,7 @@
 
 #include "rondel/conventions.h"
 
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -156,6 +158,20 @@ void add_conventions(nb::module_& module) {
       "parts_of_grids",
       [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
       nb::arg("headers"));
+  module.def(
+      "are_measures_of_cells",
+      [](const std::vector<HeaderIn>& in) { return are_measures_of_cells(headers_of(in)); },
+      nb::arg("headers"));
+  module.def(
+      "with_names",
+      [](const std::string& attribute, const std::string& text,
+         const std::map<std::string, std::string>& names) {
+        return with_names(attribute, text, [&](const std::string& name) {
+          const auto found = names.find(name);
+          return found == names.end() ? std::string() : found->second;
+        });
+      },
+      nb::arg("attribute"), nb::arg("text"), nb::arg("names"));
   module.def(
       "are_at_places",
       [](const std::vector<HeaderIn>& in) { return are_at_places(headers_of(in)); },

@@ -18,6 +18,7 @@ from ._coordinates import (
     describes_places,
     lies_elsewhere,
     mappings,
+    measures_of_cells,
     parts_of_grids,
 )
 from ._errors import warn_caller
@@ -30,6 +31,17 @@ How: TypeAlias = Literal["sum", "largest_share", "by_kind"]
 
 _AWAY = "as their longitudes and latitudes are not those of the source"
 _ELSEWHERE = "as they are at other places than the source"
+_MEASURES = "as they are areas or volumes of cells"
+# The attributes that name variables of a Dataset, or `compress` its dimensions; and the one that
+# xarray understands.
+_LISTED = "coordinates"
+_NAMING = (
+    "ancillary_variables",
+    "bounds",
+    "climatology",
+    "compress",
+    "formula_terms",
+)
 
 
 def carried(
@@ -119,14 +131,23 @@ def carried(
     _tell_of_coordinates(data, source)
     _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
-        return _without_bounds(moved(data), wanted)
+        name = _names_apart([data.name], data, wanted).get(data.name, data.name)
+        return _without_bounds(moved(data), wanted).rename(name)
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
     if lost:
         raise ValueError(
             f"the data have no dimension {' and no '.join(lost)}, which the source has"
         )
-    own_names = source.own_names | parts_of_grids(data)
-    fields = {name: data[name] for name in data.data_vars if str(name) not in own_names}
+    parts = parts_of_grids(data)
+    measures = [str(name) for name in data.data_vars if str(name) in measures_of_cells(data)]
+    measures = [name for name in measures if name not in source.own_names | parts]
+    own_names = source.own_names | parts | {*measures}
+    given, fields_of = data, [name for name in data.data_vars if str(name) not in own_names]
+    apart = _names_apart(fields_of, data, wanted)
+    data = data.rename_vars(apart)
+    fields = {apart.get(name, name): data[apart.get(name, name)] for name in fields_of}
+    if measures:
+        warn_caller(f"left out, {_MEASURES}: {', '.join(measures)}")
     _tell_of_others(data, fields, source)
     taken = {
         name: moved(array)
@@ -148,21 +169,77 @@ def carried(
     else:
         whole = whole.drop_attrs(deep=False)
     whole = in_order(whole, data)
+    former = {apart.get(name, name): given.variables[name] for name in given.variables}
+    others = {*wanted.coordinates} if keep_attrs else {*wanted.coordinates, *taken}
+    former = {name: item for name, item in former.items() if name not in others}
+    whole = _named_again(whole, former, {str(n): str(apart.get(n, n)) for n in given.variables})
     limits = whole.encoding.get("unlimited_dims")
     if limits:
         whole.encoding["unlimited_dims"] = {dim for dim in limits if dim in whole.dims}
-    bounds = wanted.bounds()
-    if not bounds or any(name in whole.variables for name in bounds):
-        return _without_bounds(whole, wanted)
-    return whole.assign_coords(bounds)
+    return _with_bounds(whole, wanted)
 
 
 def in_order(made: xarray.Dataset, data: xarray.Dataset) -> xarray.Dataset:
-    """The variables that the data have, too, in their order, with all coordinates."""
-    chosen = made[[name for name in data.data_vars if name in made.data_vars]]
+    """The variables in the order of the data, and then those that have another name there, with all
+    coordinates.
+    """
+    names = [name for name in data.data_vars if name in made.data_vars]
+    chosen = made[names + [name for name in made.data_vars if name not in data.data_vars]]
     chosen = chosen.assign_coords(made.coords)
     chosen.encoding = dict(made.encoding)
     return chosen
+
+
+def _names_apart(names: list[Any], data: Any, wanted: Places) -> dict[Any, Any]:
+    """Other names for those of variables that coordinates, bounds or dimensions of the target have,
+    as files get them: with underscores.
+    """
+    others = {str(name) for name in (*wanted.coordinates, *wanted.dims, *wanted.bounds())}
+    taken = {str(name) for name in (*data.coords, *getattr(data, "data_vars", ()), *data.dims)}
+    apart: dict[Any, Any] = {}
+    for name in names:
+        if str(name) not in others:
+            continue
+        new = f"{name}_"
+        while new in others | taken | {*apart.values()}:
+            new += "_"
+        apart[name] = new
+    return apart
+
+
+def _named_again(
+    made: xarray.Dataset,
+    former: dict[Any, xarray.Variable],
+    names: dict[str, str],
+) -> xarray.Dataset:
+    """The same with attributes that name the variables that are there, by their names; `former` are
+    the variables before, by their new names.
+    """
+    known = {old: new for old, new in names.items() if new in made.variables}
+    dims = {str(dim): str(dim) for dim in made.dims}
+
+    def renamed(
+        before: dict[Any, Any], now: dict[Any, Any], keys: tuple[str, ...]
+    ) -> dict[Any, Any]:
+        found = {key: item for key, item in now.items() if key not in keys}
+        for key in keys:
+            if isinstance(before.get(key), str):
+                of = dims if key == "compress" else known
+                found[key] = _core.with_names(key, before[key], of)
+        return {key: item for key, item in found.items() if key not in keys or item}
+
+    changed = {}
+    for name in [name for name in made.variables if name in former]:
+        old, item = former[name], made.variables[name].copy(deep=False)
+        # xarray itself writes the coordinates that it has understood.
+        item.attrs = renamed(old.attrs, item.attrs, (*_NAMING, _LISTED))
+        item.encoding = renamed(old.encoding, item.encoding, _NAMING)
+        given = made.variables[name]
+        if item.attrs != given.attrs or item.encoding != given.encoding:
+            changed[name] = item
+    coordinates = {name: item for name, item in changed.items() if name in made.coords}
+    fields = {name: item for name, item in changed.items() if name not in coordinates}
+    return made.assign(fields).assign_coords(coordinates)
 
 
 def _applied_rows(
@@ -290,7 +367,9 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
     away = [str(name) for name in rest.data_vars if lies_elsewhere(data, str(name))]
     placed = at_places(data)
     elsewhere = [str(name) for name in rest.data_vars if str(name) in placed and name not in away]
-    known = {*away, *elsewhere}
+    gathered = [name for name in elsewhere if _is_gathered(data, name)]
+    elsewhere = [name for name in elsewhere if name not in gathered]
+    known = {*away, *elsewhere, *gathered}
     taken = [
         str(name)
         for name, array in rest.data_vars.items()
@@ -299,11 +378,24 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
     for names, why in (
         (away, _AWAY),
         (elsewhere, _ELSEWHERE),
+        (gathered, "as they are compressed by gathering"),
         (taken, f"as the targets have another dimension {' or '.join(map(str, others))}"),
     ):
         if names:
             warn_caller(f"left out, {why}: {', '.join(names)}")
-    return rest.drop_vars([*away, *elsewhere, *taken]).drop_dims(others)
+    # Coordinates of other places, such as the index of places that are gathered, mean nothing now.
+    coordinates = [
+        name
+        for name, item in rest.coords.items()
+        if str(name) in placed and not set(item.dims) <= set(wanted.dims)
+    ]
+    return rest.drop_vars([*known, *taken, *coordinates]).drop_dims(others)
+
+
+def _is_gathered(data: xarray.Dataset, name: str) -> bool:
+    """Whether places are gathered in a dimension of the variable, by the index along it."""
+    indices = [data.variables[dim] for dim in data[name].dims if dim in data.variables]
+    return any("compress" in {**index.encoding, **index.attrs} for index in indices)
 
 
 def _bounds_of_others(data: xarray.Dataset, own_names: set[str]) -> set[str]:
@@ -327,6 +419,21 @@ def _free_name(data: Any, name: str) -> str:
     while name in taken:
         name += "_"
     return name
+
+
+def _with_bounds(made: xarray.Dataset, wanted: Places) -> xarray.Dataset:
+    """The same with the bounds of the target, which its coordinates name."""
+    bounds = wanted.bounds()
+    if not bounds or any(name in made.variables for name in bounds):
+        return _without_bounds(made, wanted)
+    coordinates = {}
+    for name in wanted.coordinates:
+        item = made[name].variable.copy(deep=False)
+        own = f"{name}_bnds"
+        if own in bounds and "bounds" not in {**item.attrs, **item.encoding}:
+            item.attrs = {**item.attrs, "bounds": own}
+            coordinates[name] = item
+    return made.assign_coords({**bounds, **coordinates})
 
 
 def _without_bounds(made: Any, wanted: Places) -> Any:

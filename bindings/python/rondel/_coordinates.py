@@ -297,6 +297,13 @@ def parts_of_grids(data: Any) -> set[str]:
     return {header[0] for header, is_part in zip(headers, parts, strict=True) if is_part}
 
 
+def measures_of_cells(data: Any) -> set[str]:
+    """The variables with the areas or volumes of cells, of which means are no areas."""
+    headers = _headers(data)
+    measures = _core.are_measures_of_cells(headers)
+    return {header[0] for header, is_measure in zip(headers, measures, strict=True) if is_measure}
+
+
 def at_places(data: xarray.Dataset) -> set[str]:
     """The variables whose values depend on place, on the nodes of a mesh or an axis x as well."""
     headers = _headers(data)

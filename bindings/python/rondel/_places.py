@@ -74,6 +74,7 @@ class Places:
         # Places that have been triangulated, each with the one before it in the same place.
         self.coincident: IntArray = np.zeros((0, 2), np.int64)
         self._cells = data if isinstance(data, CellSet) else None
+        self._bounds_of_cells: dict[Hashable, Any] | None = None  # which are found once
         if self._cells is not None:
             data = _centers(self._cells)
         elif isinstance(data, Mapping) and not isinstance(data, xarray.Dataset):
@@ -190,10 +191,14 @@ class Places:
         return ({**dict(texts), **whole}, {}) if is_mapping else ({}, dict(texts))
 
     def bounds(self) -> dict[Hashable, Any]:
-        """The variables that have the bounds of the coordinates."""
-        if self._cells is not None:
-            return {}
-        return {name: self._data[name].variable for name in self._found.own_bounds}
+        """The variables that have the bounds of the coordinates, which of cells are lat_bnds and
+        lon_bnds.
+        """
+        if self._cells is None:
+            return {name: self._data[name].variable for name in self._found.own_bounds}
+        if self._bounds_of_cells is None:
+            self._bounds_of_cells = _bounds_of(self._cells, self._grid, self.dims, self.shape)
+        return dict(self._bounds_of_cells)
 
     def require_same(self, data: Any) -> None:
         """Refuses data that have coordinates of the same names with other values."""
@@ -602,6 +607,31 @@ def _centers(cells: CellSet) -> xarray.Dataset:
     dims = ("tile", "y", "x")[-len(cells.shape) :] if len(cells.shape) in (2, 3) else ("cell",)
     degrees = cells._degrees().reshape(*(cells.shape if len(dims) > 1 else (-1,)), 2)
     return _marked({"lon": (dims, degrees[..., 0]), "lat": (dims, degrees[..., 1])})
+
+
+def _bounds_of(
+    cells: CellSet, grid: str, dims: tuple[Hashable, ...], shape: tuple[int, ...]
+) -> dict[Hashable, Any]:
+    """The bounds of cells, if they are not those of a grid with a name, which says it all, and have
+    not too many corners.
+    """
+    lines = cells._cells.lines()
+    if _core.is_grid_name(grid):
+        return {}
+    if lines is not None:
+        sides = {"lat": lines[1], "lon": lines[0]}
+        return {
+            f"{name}_bnds": xarray.Variable((name, "bnds"), np.stack([each[:-1], each[1:]], -1))
+            for name, each in sides.items()
+        }
+    bounds = cells._cells.bounds()
+    if bounds.size == 0:
+        return {}
+    bounds = bounds.reshape(*shape, -1, 2)
+    return {
+        f"{name}_bnds": xarray.Variable((*dims, "nv"), bounds[..., k])
+        for k, name in ((1, "lat"), (0, "lon"))
+    }
 
 
 def _named(arrays: dict[Any, Any]) -> dict[Any, Any]:
