@@ -125,6 +125,10 @@ RONDEL_API std::vector<bool> are_at_places(std::span<const VariableHeader> varia
 /// `_FillValue` ...
 RONDEL_API bool is_attribute_of_places(std::string_view name);
 
+/// True for an attribute that names other variables, or dimensions, and that with_names() knows:
+/// `coordinates`, `ancillary_variables`, `bounds`, `climatology`, `formula_terms`, `compress`.
+RONDEL_API bool is_attribute_of_names(std::string_view attribute);
+
 /// Returns an attribute that names other variables, as it holds where some of these have other names
 /// or are missing. Of the lists `coordinates` and `ancillary_variables` it keeps the names that are
 /// there; `bounds`, `climatology`, `formula_terms`, and `compress`, which names dimensions, hold if

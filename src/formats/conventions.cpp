@@ -170,13 +170,17 @@ std::vector<bool> are_measures_of_cells(std::span<const VariableHeader> variable
   return result;
 }
 
+bool is_attribute_of_names(std::string_view attribute) {
+  constexpr std::array<std::string_view, 6> names = {
+      "coordinates", "ancillary_variables", "bounds", "climatology", "formula_terms", "compress"};
+  return std::ranges::find(names, attribute) != names.end();
+}
+
 std::string with_names(std::string_view attribute, const std::string& text,
                        const std::function<std::string(const std::string&)>& name_of) {
-  const bool is_list = attribute == "coordinates" || attribute == "ancillary_variables";
+  if (!is_attribute_of_names(attribute)) return {};
   const bool is_formula = attribute == "formula_terms";
-  const bool needs_all =
-      is_formula || attribute == "bounds" || attribute == "climatology" || attribute == "compress";
-  if (!is_list && !needs_all) return {};
+  const bool needs_all = attribute != "coordinates" && attribute != "ancillary_variables";
   std::string kept;
   for (const std::string& word : formats::words_of(text)) {
     // In "ps: surface" the first word is a term of the formula.

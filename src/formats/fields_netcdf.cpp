@@ -314,20 +314,25 @@ class NetcdfSink : public FieldSink {
   }
 
   // Returns the attributes of an array, in which variables and dimensions have the names that they
-  // get here.
+  // get here. Those that name others, as statistics of a field name the field's, are left out.
   std::vector<io::NetcdfAttribute> with_own_names(const FieldArray& array) {
-    std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
-    for (io::NetcdfAttribute& attribute : attributes) {
-      const bool is_of_dimensions = attribute.name == "compress";
-      const std::string text = with_names(attribute.name, attribute.text, [&](std::string name) {
-        if (is_of_dimensions) {
-          const auto known = std::ranges::find(known_, name, &LeadingDimension::name);
-          return known == known_.end() ? name : known->own_name;
-        }
-        const auto known = own_names_.find(name);
-        return known == own_names_.end() ? name : known->second;
-      });
-      if (!text.empty()) attribute.text = text;
+    const auto name_here = [&](const std::string& name) {
+      const auto known = own_names_.find(name);
+      return known == own_names_.end() ? std::string() : known->second;
+    };
+    const auto dimension_here = [&](const std::string& name) {
+      const auto known = std::ranges::find(known_, name, &LeadingDimension::name);
+      return known == known_.end() ? std::string() : known->own_name;
+    };
+    std::vector<io::NetcdfAttribute> attributes;
+    for (io::NetcdfAttribute& attribute : with_attributes(array)) {
+      if (is_attribute_of_names(attribute.name)) {
+        attribute.text = attribute.name == "compress"
+                             ? with_names(attribute.name, attribute.text, dimension_here)
+                             : with_names(attribute.name, attribute.text, name_here);
+        if (attribute.text.empty()) continue;
+      }
+      attributes.push_back(std::move(attribute));
     }
     return attributes;
   }

@@ -4,6 +4,7 @@
 #include "io/netcdf_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <sstream>
 #include <string_view>
@@ -13,9 +14,12 @@ namespace {
 
 using VariableNames = std::set<std::string, std::less<>>;
 
-// True if the words of the attribute are names of variables.
+// True if words of the attribute are names of variables; others end with a colon.
 bool names_variables(std::string_view attribute) {
-  return attribute == "bounds" || attribute == "coordinates" || attribute == "mesh" ||
+  constexpr std::array<std::string_view, 7> names = {
+      "bounds",        "climatology",         "coordinates",  "mesh",
+      "formula_terms", "ancillary_variables", "cell_measures"};
+  return std::ranges::find(names, attribute) != names.end() ||
          attribute.ends_with("_coordinates") || attribute.ends_with("_connectivity");
 }
 

@@ -237,6 +237,37 @@ class Beside(unittest.TestCase):
         self.assertEqual(out["lev"].bounds, "lev_sides")
         self.assertEqual({"formula_terms", "ancillary_variables"} & {*out["lev"].ncattrs(), *out["ta"].ncattrs()}, set())
 
+    def test_names_in_groups_become_those_of_the_output(self):
+        with netCDF4.Dataset(self.folder / "in.nc", "w") as file:
+            group = file.createGroup("model")
+            for name, values in (("lat", LAT), ("lon", LON), ("lev", [1.0, 2])):
+                group.createDimension(name, len(values))
+                add(group, name, (name,), values, **({"units": UNITS[name]} if name in UNITS else {}))
+            group["lev"].formula_terms = "b: b ps: /model/ps"
+            add(group, "b", ("lev",), [0.1, 0.2])
+            for name in ("ps", "error", "area_of_cells"):
+                add(group, name, ("lat", "lon"), 1.0)
+            add(group, "ta", ("lev", "lat", "lon"), 1.0, ancillary_variables="error", cell_measures="area: area_of_cells")
+        said = self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc")
+        self.assertEqual(said, ["in.nc: left out, as they are areas or volumes of cells: model/area_of_cells"])
+        out = self.read("out.nc")
+        self.assertEqual(out["model_lev"].formula_terms, "b: model_b ps: model_ps")
+        self.assertEqual(out["model_ta"].ancillary_variables, "model_error")
+
+    def test_statistics_name_no_fields_that_are_not_there(self):
+        with write(self.folder / "in.nc", lev=2) as file:
+            add(file, "lev", ("lev",), [1.0, 2], formula_terms="b: b ps: ps")
+            add(file, "b", ("lev",), [0.1, 0.2])
+            add(file, "height", (), 2.0)
+            for name in ("ps", "error"):
+                add(file, name, ("lat", "lon"), 1.0)
+            add(file, "ta", ("lev", "lat", "lon"), 1.0, ancillary_variables="error", coordinates="height")
+        self.run_tool("regrid", "in.nc", "grid:30", "--statistics", "mean,max", "-o", "out.nc")
+        out = self.read("out.nc")
+        self.assertNotIn("formula_terms", out["lev"].ncattrs())
+        self.assertNotIn("ancillary_variables", out["ta_max"].ncattrs())
+        self.assertEqual(out["ta_max"].coordinates, "height")
+
     def test_places_that_are_gathered_are_left_out(self):
         land = np.flatnonzero(np.random.default_rng(4).uniform(size=648) < 0.4)
         with write(self.folder / "in.nc", land=len(land), time=2) as file:

@@ -62,6 +62,7 @@ void test_names(const std::vector<VariableHeader>& headers) {
   for (const VariableHeader& header : headers) {
     for (const auto& [attribute, text] : header.texts) {
       const std::string found = with_names(attribute, text, kept);
+      require(found.empty() || is_attribute_of_names(attribute), "other attributes name nothing");
       require(with_names(attribute, found, kept) == found, "what is there is kept");
       const auto same = [](const std::string& name) { return name; };
       require(found.empty() || with_names(attribute, text, same).size() >= found.size(),

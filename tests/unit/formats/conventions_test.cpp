@@ -484,6 +484,38 @@ TEST(conventions, variables_of_grids_are_no_fields) {
   EXPECT_EQ(parts_of_grids(headers), std::vector<bool>(5));
 }
 
+TEST(conventions, areas_and_volumes_of_cells_are_known) {
+  const std::vector<VariableHeader> headers = {
+      header("tas", {"n"}, {{"cell_measures", "area: own volume: bulk"}}),
+      header("own", {"n"}),
+      header("bulk", {"n"}),
+      header("named", {"n"}, {{"standard_name", "cell_area"}}),
+      header("areaCell", {"n"}),
+      header("TAREA", {"n"}),
+      header("area", {"n"}, {{"units", "m^2"}}),
+      header("area", {"n"}, {{"units", "1"}}),
+      header("leaf_area", {"n"}, {{"units", "m2"}}),
+      header("area:", {"n"})};
+  EXPECT_EQ(are_measures_of_cells(headers),
+            (std::vector<bool>{false, true, true, true, true, true, true, false, false, false}));
+}
+
+TEST(conventions, attributes_of_a_copy_name_what_is_there) {
+  const auto name_of = [](const std::string& name) {
+    return name == "lost" ? std::string() : name + "_";
+  };
+  EXPECT_EQ(with_names("coordinates", "lon lost  height", name_of), "lon_ height_");
+  EXPECT_EQ(with_names("ancillary_variables", "lost", name_of), "");
+  EXPECT_EQ(with_names("bounds", "time_bnds", name_of), "time_bnds_");
+  EXPECT_EQ(with_names("climatology", "lost", name_of), "");
+  EXPECT_EQ(with_names("formula_terms", "a: b ps: a", name_of), "a: b_ ps: a_");
+  EXPECT_EQ(with_names("formula_terms", "a: b ps: lost", name_of), "");
+  EXPECT_EQ(with_names("compress", "lev lat", name_of), "lev_ lat_");
+  EXPECT_EQ(with_names("compress", "lev lost", name_of), "");
+  EXPECT_EQ(with_names("units", "lev", name_of), "");
+  EXPECT_FALSE(is_attribute_of_names("grid_mapping"));
+}
+
 TEST(conventions, variables_depend_on_place_by_their_dimensions) {
   const std::vector<VariableHeader> headers = {
       header("mesh", {},
@@ -502,9 +534,14 @@ TEST(conventions, variables_depend_on_place_by_their_dimensions) {
       header("said", {"q"}, {{"mesh", "mesh"}, {"location", "edge"}}),
       header("time_bnds", {"time", "two"}),
       header("hyai", {"ilev"}),
+      header("land", {"land"}, {{"compress", "time f"}}),
+      header("of_land", {"time", "land"}),
+      header("few", {"few"}, {{"compress", "time ilev"}}),
+      header("of_few", {"few"}),
       header("crs", {})};
-  EXPECT_EQ(are_at_places(headers), (std::vector<bool>{false, true, true, true, true, true, true,
-                                                       true, true, false, false, false}));
+  EXPECT_EQ(are_at_places(headers),
+            (std::vector<bool>{false, true, true, true, true, true, true, true, true, false, false,
+                               true, true, false, false, false}));
   // Longitudes of a track have a time, which is no dimension of places; staggered axes are.
   const std::vector<VariableHeader> others = {
       header("lon", {"time"}),     header("lat", {"time"}),
