@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
@@ -72,6 +73,13 @@ struct CellRings {
     append_rings(others, cell);
     end_cell();
   }
+};
+
+/// A side that is straight in longitude and latitude, with its cell to the left.
+struct LonLatSide {
+  LonLat from;
+  LonLat to;
+  friend bool operator==(const LonLatSide&, const LonLatSide&) = default;
 };
 
 /// A grid in longitude and latitude, given by its lines. Cell `row * (lon_deg.size() - 1) + column`
@@ -140,6 +148,11 @@ struct CellFacts {
 /// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.
 struct CellTable {
   CellRings cells;
+  /// The sides that the arcs of `cells` stand for, if these are straight in longitude and latitude: a
+  /// row for each cell, or none at all. A row without sides says nothing of its cell. The sides of a
+  /// cell are the whole border of its part of the plane, in any order; they run along the poles, and
+  /// may be any number of turns of the globe away.
+  CompressedRows<LonLatSide> sides;
   std::optional<LonLatGrid> grid;
   CellFacts facts;
 

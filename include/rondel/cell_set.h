@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "rondel/cell_rings.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/polygon_files.h"
 #include "rondel/triangulation.h"
@@ -92,6 +93,15 @@ class RONDEL_API CellSet {
   /// areas(), by centers(), and, as cells that overlap each other, by the functions that use them
   /// (remap.h, regions.h).
   static CellSet polygons(const CellRings& cells, const Execution& execution = {});
+  /// Prepares cells whose arcs stand for sides that are straight in longitude and latitude, as
+  /// read_polygons() reads them. Overlays with a grid between meridians and parallels have the areas
+  /// between these sides, without arcs; overlays with other cells, areas() and centers() have those
+  /// between the arcs.
+  /// \param sides  a row for each cell, or no rows (CellTable::sides)
+  /// \throws InvalidInput as for cells alone, or if the rows do not fit, or (the cell) a side is at no
+  ///         longitude and latitude
+  static CellSet polygons(const CellRings& cells, CompressedRows<LonLatSide> sides,
+                          const Execution& execution = {});
   /// Makes cells that set_operations.h returned, or others whose rings neither cross nor meet along
   /// sides. polygons() makes the same of them, and looks for such faults before, which takes most
   /// of its time for cells of millions of corners.
@@ -121,6 +131,9 @@ class RONDEL_API CellSet {
   /// Returns the same as rings(), but rings begin where those of the input did: polygons() of them
   /// has the same areas and centers, bit by bit, which depend on it in the last digit.
   [[nodiscard]] CellRings given_rings() const;
+  /// Returns the straight sides that the arcs of cells stand for, as polygons() takes them; no rows if
+  /// none are known.
+  [[nodiscard]] CompressedRows<LonLatSide> sides() const;
   /// Returns the lines between the cells of a grid, or null for other cells.
   [[nodiscard]] const LonLatGrid* lines() const;
   /// True if the cells are between parallels, so that they have no rings().

@@ -157,6 +157,7 @@ CellTable table_of(map::PolygonFeatures& features, const PolygonOptions& options
   overlay::ConvertedFeatures converted = overlay::converted_features(features, options, execution);
   CellTable table;
   table.cells = std::move(converted.cells);
+  table.sides = std::move(converted.sides);
   table.facts = std::move(converted.facts.front());
   map::FeatureFile& file = features.files.front();
   if (features.rings.empty()) table.facts.remarks.emplace_back(no_features);

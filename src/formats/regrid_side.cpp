@@ -205,7 +205,7 @@ void RegridSide::make_cells(const Execution& execution) {
 bool RegridSide::has_tiles(const Execution& execution) const {
   if (named_ || lines_) return true;
   const overlay::CellSetData& data = overlay::CellSetData::of(*cells_);
-  return data.whole() == no_index && data.overlaps(execution).empty();
+  return data.whole() == no_index && !data.has_overlaps(execution);
 }
 
 bool RegridSide::is_walked() const {

@@ -72,7 +72,13 @@ CellRings rings_of(const GridFormula& grid, std::span<const Index> cells, unsign
 
 CellSet cells_of(const GridFormula& grid, std::span<const Index> cells,
                  const Execution& execution) {
-  return overlay::CellSetData::of_apart(rings_of(grid, cells, execution.threads), execution);
+  CompressedRows<LonLatSide> sides;
+  const CompressedRows<LonLatSide>* const stored = grid.stored_sides();
+  if (stored != nullptr && stored->size() > 0) {
+    for (const Index cell : cells) sides.append((*stored)[cell]);
+  }
+  return overlay::CellSetData::of_apart(rings_of(grid, cells, execution.threads), execution,
+                                        std::move(sides));
 }
 
 }  // namespace rondel::grids

@@ -16,6 +16,7 @@
 
 #include "rondel/cell_rings.h"
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/types.h"
 
 namespace rondel::grids {
@@ -36,6 +37,8 @@ class GridFormula {
   // Returns cells that are in memory, which may have several rings, or null. Then append_ring()
   // appends the corners of all of them.
   [[nodiscard]] virtual const CellRings* stored() const { return nullptr; }
+  // Returns the straight sides of stored cells, which may have no rows, or null.
+  [[nodiscard]] virtual const CompressedRows<LonLatSide>* stored_sides() const { return nullptr; }
   // Returns the area of a stored cell in steradians, and otherwise 0.
   [[nodiscard]] virtual double area(Index /*cell*/) const { return 0; }
   // False if the cells leave a part of the sphere out.

@@ -41,7 +41,8 @@ using overlay::PreparedGrid;
 // The cells of a set, as those of a grid that is computed.
 class StoredCells : public grids::GridFormula {
  public:
-  explicit StoredCells(CellSet cells) : cells_(std::move(cells)), rings_(cells_.given_rings()) {}
+  explicit StoredCells(CellSet cells)
+      : cells_(std::move(cells)), rings_(cells_.given_rings()), sides_(cells_.sides()) {}
 
   [[nodiscard]] Index num_cells() const override { return static_cast<Index>(cells_.num_cells()); }
   [[nodiscard]] LonLat center(Index cell) const override { return cells_.places()[cell]; }
@@ -51,6 +52,7 @@ class StoredCells : public grids::GridFormula {
     for (std::uint64_t k = begin; k < end; ++k) ring.push_back(rings_.points[rings_.corners[k]]);
   }
   [[nodiscard]] const CellRings* stored() const override { return &rings_; }
+  [[nodiscard]] const CompressedRows<LonLatSide>* stored_sides() const override { return &sides_; }
   [[nodiscard]] double area(Index cell) const override {
     return CellSetData::of(cells_).areas()[cell];
   }
@@ -58,6 +60,7 @@ class StoredCells : public grids::GridFormula {
  private:
   CellSet cells_;
   CellRings rings_;
+  CompressedRows<LonLatSide> sides_;
 };
 
 // Throws InvalidInput if there is a mask of another length.
@@ -126,7 +129,7 @@ TiledCells::TiledCells(const CellSet& cells) {
   if (data.whole() != no_index) {
     throw InvalidInput("a cell that is the whole sphere has no tiles", data.whole());
   }
-  if (!data.overlaps({}).empty()) {
+  if (data.has_overlaps({})) {
     throw InvalidInput("cells that overlap have no tiles", data.overlaps({}).front().second);
   }
   content_ = std::make_shared<const CellsOfTiles>(CellsOfTiles{
@@ -243,6 +246,7 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
            execution);
   const PieceRows all =
       pieces_in_cells(near.data(), reach_of(*target_index, near.names), execution);
+  const auto borders = source().grid ? overlay::Borders::straight : overlay::Borders::arcs;
   std::size_t next = 0;
   for (std::size_t k = 0; k < near.names.size() && next < result.targets.size(); ++k) {
     if (near.names[k] != result.targets[next]) continue;
@@ -258,8 +262,8 @@ TiledRemap::TileMaker::TilePieces TiledRemap::TileMaker::pieces_of_bands(
     }
     rows.row_sums.push_back(all.row_sums[k]);
     rows.end_row();
-    result.areas.push_back(near.data().areas()[k]);
-    result.lengths.push_back(near.data().lengths()[k]);
+    result.areas.push_back(near.data().areas(borders)[k]);
+    result.lengths.push_back(near.data().lengths(borders)[k]);
   }
   return result;
 }

@@ -100,8 +100,8 @@ std::vector<LonLat> LonLatAxes::places() const {
 CellSet CellSet::of(CellTable table, GridSides sides, const Execution& execution) {
   const std::string name = table.facts.name;
   try {
-    const CellSet cells =
-        table.grid ? lonlat_grid(*table.grid, sides, execution) : polygons(table.cells, execution);
+    const CellSet cells = table.grid ? lonlat_grid(*table.grid, sides, execution)
+                                     : polygons(table.cells, std::move(table.sides), execution);
     return cells.with_facts(std::move(table.facts));
   } catch (const InvalidInput& error) {
     throw FileError(name + ": " + error.what());

@@ -96,11 +96,48 @@ CellSetData::CellSetData(PreparedGrid grid)
       moments_(grid_->moments()),
       lengths_(grid_->lengths()) {}
 
+void CellSetData::keep_straight_sides(CompressedRows<LonLatSide> sides, unsigned threads) {
+  if (sides.values.empty()) return;
+  CompressedRows<LonLatSide> kept;
+  kept.offsets.reserve(sides.offsets.size());
+  std::vector<bool> has_arcs(num_cells(), false);
+  for (Index c = 0; c < subdivision_.num_cells(); ++c) {
+    has_arcs[subdivision_.names[c]] = subdivision_.cells[c] < subdivision_.cells[c + 1];
+  }
+  if (std::ranges::find(has_arcs, false) == has_arcs.end()) {
+    kept = std::move(sides);
+  } else {
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      kept.append(has_arcs[i] ? sides[i] : std::span<const LonLatSide>());
+    }
+  }
+  straight_sides_.emplace(std::move(kept), areas_, lengths_, threads);
+}
+
+std::vector<Point> CellSetData::moments(Borders borders) const {
+  std::vector<Point> result = moments_;
+  if (borders == Borders::arcs || !straight_sides_) return result;
+  for (Index i = 0; i < result.size(); ++i) {
+    if (!straight_sides_->rows()[i].empty()) result[i] = straight_sides_->moment(i);
+  }
+  return result;
+}
+
 const std::vector<CrossingCells>& CellSetData::overlaps(const Execution& execution) const {
   std::call_once(are_overlaps_known_, [&] {
     if (!are_apart_) overlaps_ = overlaps_of(subdivision_, all_whole_, execution);
   });
   return overlaps_;
+}
+
+bool CellSetData::has_overlaps(const Execution& execution) const {
+  std::call_once(is_any_overlap_known_, [&] {
+    if (are_apart_) return;
+    has_any_overlap_ = all_whole_.empty() ? overlay::has_overlaps(subdivision_, execution)
+                                          : !overlaps(execution).empty();
+    if (!has_any_overlap_) std::call_once(are_overlaps_known_, [] {});
+  });
+  return has_any_overlap_;
 }
 
 const std::vector<CrossingCells>& CellSetData::cells_crossing_themselves() const {
@@ -234,6 +271,24 @@ void validate(const CellRings& cells) {
   }
 }
 
+// Throws InvalidInput for straight sides that do not fit the cells, or are no longitudes and
+// latitudes.
+void validate(const CompressedRows<LonLatSide>& sides, std::size_t num_cells) {
+  if (sides.size() == 0 && sides.values.empty()) return;
+  if (sides.size() != num_cells || !system::are_offsets(sides.offsets, sides.values.size())) {
+    throw InvalidInput("the offsets of the straight sides do not fit");
+  }
+  constexpr double max_lon = 1e4;
+  const auto is_place = [](const LonLat& p) {
+    return std::abs(p.lon_deg) <= max_lon && std::abs(p.lat_deg) <= 90;
+  };
+  for (std::size_t i = 0; i < num_cells; ++i) {
+    for (const LonLatSide& side : sides[i]) {
+      if (!is_place(side.from) || !is_place(side.to)) refuse(i, "has a side that is no place");
+    }
+  }
+}
+
 // Prepares cells that are known not to overlap each other or themselves.
 std::shared_ptr<CellSetData> data_of_apart(const CellRings& cells, const Execution& execution) {
   validate(cells);
@@ -266,12 +321,20 @@ CellSet::CellSet(std::shared_ptr<const CellSetData> data, CellFacts facts)
     : data_(std::move(data)), facts_(std::make_shared<const CellFacts>(std::move(facts))) {}
 
 CellSet CellSet::polygons(const CellRings& cells, const Execution& execution) {
+  return polygons(cells, {}, execution);
+}
+
+CellSet CellSet::polygons(const CellRings& cells, CompressedRows<LonLatSide> sides,
+                          const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
+  validate(sides, cells.num_cells());
   std::vector<Index> whole = cells.whole;
   Subdivision subdivision = overlay::sound_cells(cells, whole, execution);
-  return CellSet(std::make_shared<const CellSetData>(std::move(subdivision), std::move(whole),
-                                                     execution.threads));
+  const auto data =
+      std::make_shared<CellSetData>(std::move(subdivision), std::move(whole), execution.threads);
+  data->keep_straight_sides(std::move(sides), execution.threads);
+  return CellSet(data);
 }
 
 CellSet CellSet::valid_polygons(const CellRings& cells, const Execution& execution) {
@@ -362,6 +425,10 @@ CellRings CellSet::rings() const {
 CellRings CellSet::given_rings() const {
   overlay::require_arcs(*data_);
   return overlay::given_rings_of(*data_);
+}
+CompressedRows<LonLatSide> CellSet::sides() const {
+  return data_->straight_sides() != nullptr ? data_->straight_sides()->rows()
+                                            : CompressedRows<LonLatSide>();
 }
 const LonLatGrid* CellSet::lines() const { return data_->lines(); }
 bool CellSet::has_parallels() const { return data_->grid() != nullptr; }

@@ -12,12 +12,15 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "overlay/pieces.h"
 #include "overlay/prepared_grid.h"
+#include "overlay/straight_sides.h"
 #include "overlay/subdivision.h"
 #include "rondel/cell_set.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/regions.h"
 #include "rondel/types.h"
 
@@ -32,10 +35,14 @@ class CellSetData {
   explicit CellSetData(PreparedGrid grid);
 
   [[nodiscard]] static const CellSetData& of(const CellSet& cells) { return *cells.data_; }
-  // Returns cells that are known not to overlap each other or themselves, as they are.
-  [[nodiscard]] static CellSet of_apart(const CellRings& cells, const Execution& execution) {
-    return CellSet(std::make_shared<const CellSetData>(Subdivision(cells, false, execution.threads),
-                                                       cells.whole, execution.threads, true));
+  // Returns cells that are known not to overlap each other or themselves, as they are, with their
+  // straight sides if these are known.
+  [[nodiscard]] static CellSet of_apart(const CellRings& cells, const Execution& execution,
+                                        CompressedRows<LonLatSide> sides = {}) {
+    const auto data = std::make_shared<CellSetData>(Subdivision(cells, false, execution.threads),
+                                                    cells.whole, execution.threads, true);
+    data->keep_straight_sides(std::move(sides), execution.threads);
+    return CellSet(data);
   }
 
   // Returns the grid, or null if the cells are not between meridians and parallels.
@@ -43,6 +50,17 @@ class CellSetData {
   // The lines of a grid, whatever the sides of its cells are; null for other cells.
   [[nodiscard]] const LonLatGrid* lines() const { return lines_ ? &*lines_ : nullptr; }
   void keep_lines(const LonLatGrid& lines) { lines_ = lines; }
+  // The straight sides of cells, a row for each cell, or null if none are known.
+  [[nodiscard]] const StraightSides* straight_sides() const {
+    return straight_sides_ ? &*straight_sides_ : nullptr;
+  }
+  // Keeps straight sides, which the arcs stand for. Cells without arcs lose theirs.
+  void keep_straight_sides(CompressedRows<LonLatSide> sides, unsigned threads);
+  // Returns which borders count in an overlay with other cells.
+  [[nodiscard]] static Borders borders_between(const CellSetData& cells,
+                                               const CellSetData& others) {
+    return cells.grid() != nullptr || others.grid() != nullptr ? Borders::straight : Borders::arcs;
+  }
   // Returns the cells. If there is a grid, the subdivision has no cells.
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
   // Returns the first cell that is the whole sphere, or no_index.
@@ -52,27 +70,39 @@ class CellSetData {
   // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
   // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
+  // True if there are such pairs. The first call finds one, which takes less time than all of them.
+  [[nodiscard]] bool has_overlaps(const Execution& execution) const;
   // Returns the cells that cross or overlap themselves, each as a pair with itself, by ascending
   // indices. The first call looks for them. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& cells_crossing_themselves() const;
   // Throws InvalidInput with the first cell that crosses or overlaps itself, which has no area.
   void require_simple_cells() const;
+  [[nodiscard]] std::size_t num_cells() const { return areas_.size(); }
   // Returns the area of each cell in steradians.
-  [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
+  [[nodiscard]] const std::vector<double>& areas(Borders borders = Borders::arcs) const {
+    return borders == Borders::straight && straight_sides_ ? straight_sides_->areas() : areas_;
+  }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
+  // Returns the first moments between some borders.
+  [[nodiscard]] std::vector<Point> moments(Borders borders) const;
   // Returns bounds for the lengths of the cells' borders, in radians.
-  [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
+  [[nodiscard]] const std::vector<double>& lengths(Borders borders = Borders::arcs) const {
+    return borders == Borders::straight && straight_sides_ ? straight_sides_->lengths() : lengths_;
+  }
   [[nodiscard]] CellSizes sizes() const { return {areas_, lengths_}; }
 
  private:
   Subdivision subdivision_;
   std::optional<PreparedGrid> grid_;
   std::optional<LonLatGrid> lines_;
+  std::optional<StraightSides> straight_sides_;
   std::vector<Index> all_whole_;
   bool covers_sphere_ = false;
   bool are_apart_ = false;
   mutable std::once_flag are_overlaps_known_;
   mutable std::vector<CrossingCells> overlaps_;
+  mutable std::once_flag is_any_overlap_known_;
+  mutable bool has_any_overlap_ = false;
   mutable std::once_flag is_crossing_known_;
   mutable std::vector<CrossingCells> crossing_;
   std::vector<double> areas_;

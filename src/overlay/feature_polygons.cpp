@@ -148,7 +148,10 @@ class FeatureCells {
     std::iota(all.begin(), all.end(), Index{0});
     const std::vector<CrossingCells> overlaps = overlaps_in(cells, all);
     if (overlaps.empty()) return cells;
-    if (options_.overlap == PolygonOverlap::first) return first_of_all(cells, overlaps);
+    if (options_.overlap == PolygonOverlap::first) {
+      drop_sides_of(overlaps);
+      return first_of_all(cells, overlaps);
+    }
     throw FileError(
         features_.files.front().name + ": features " + name_of(overlaps[0].first) + " and " +
         name_of(overlaps[0].second) + " overlap at " + text_of_place(overlaps[0].place) +
@@ -181,6 +184,8 @@ class FeatureCells {
     checked.region = std::move(region);
     checked.rings = std::move(features_.rings.front());
   }
+  // Returns the straight sides of all features: none of those that were repaired.
+  [[nodiscard]] CompressedRows<PlaneSide>& sides() { return sides_; }
   // Returns the lines of all features.
   [[nodiscard]] FeatureLines& lines() { return lines_; }
   // Returns sentences on what was repaired and what is too thin for a cell, of each file.
@@ -427,6 +432,7 @@ class FeatureCells {
     share_polar_corners(sides, divided);
     lines_ = divided_lines(features_, divided, first_of_lines);
     CellRings cells = cells_of_sides(sides, owners, divided);
+    keep_sides(std::move(sides), owners);
     // A feature that has an area in the plane but no border on the sphere covers the sphere.
     for (std::size_t f = 0; f < turns.size(); ++f) {
       if (turns[f] > 0 && cells.cells[f] == cells.cells[f + 1]) {
@@ -442,6 +448,31 @@ class FeatureCells {
       for (std::size_t s = first_sides[f]; s < end; ++s) rows.push_back(divided[s]);
       return repaired_plane_feature(faulty[f], rows, quiet());
     });
+  }
+
+  // Keeps the sides that have owners, which are in order.
+  void keep_sides(std::vector<PlaneSide> sides, std::span<const Index> owners) {
+    sides.resize(owners.size());
+    sides_.values = std::move(sides);
+    sides_.offsets.reserve(features_.rings.size() + 1);
+    for (std::size_t f = 0, end = 0; f < features_.rings.size(); ++f) {
+      while (end < owners.size() && owners[end] == f) ++end;
+      sides_.offsets.push_back(end);
+    }
+  }
+  // Removes the sides of features that overlap: what is left of them is between arcs.
+  void drop_sides_of(std::span<const CrossingCells> overlaps) {
+    std::vector<bool> is_dropped(sides_.size(), false);
+    for (const CrossingCells& pair : overlaps) {
+      if (pair.second >= is_dropped.size()) continue;  // geodesic sides
+      is_dropped[pair.first] = true;
+      is_dropped[pair.second] = true;
+    }
+    CompressedRows<PlaneSide> kept;
+    for (std::size_t f = 0; f < sides_.size(); ++f) {
+      kept.append(is_dropped[f] ? std::span<const PlaneSide>() : sides_[f]);
+    }
+    sides_ = std::move(kept);
   }
 
   // Returns the cells of features that own the first sides, which are divided.
@@ -575,6 +606,7 @@ class FeatureCells {
   const PolygonOptions& options_;
   std::span<const CheckedFeature> checked_;  // of each feature, or none
   const Execution& execution_;
+  CompressedRows<PlaneSide> sides_;
   FeatureLines lines_;
   std::vector<CellFacts> facts_;  // of each file: the remarks
 };
@@ -642,7 +674,8 @@ ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOpti
   const auto converted = [&](std::span<const CheckedFeature> checked) {
     FeatureCells make(features, options, checked, execution);
     CellRings cells = make();
-    return ConvertedFeatures{std::move(cells), std::move(make.lines()), std::move(make.facts())};
+    return ConvertedFeatures{std::move(cells), std::move(make.sides()), std::move(make.lines()),
+                             std::move(make.facts())};
   };
   features.lines.resize(features.rings.size());
   if (options.invalid == InvalidPolygons::error) return converted({});

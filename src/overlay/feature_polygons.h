@@ -19,6 +19,7 @@
 #include "overlay/plane_arcs.h"
 #include "overlay/plane_sweep.h"
 #include "rondel/cell_rings.h"
+#include "rondel/compressed_rows.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
@@ -29,8 +30,9 @@ namespace rondel::overlay {
 // The cells and lines of features.
 struct ConvertedFeatures {
   CellRings cells;
-  FeatureLines lines;            // divided together with the sides of the cells
-  std::vector<CellFacts> facts;  // of each file
+  CompressedRows<PlaneSide> sides;  // what arcs stand for, as in CellTable; no rows if geodesic
+  FeatureLines lines;               // divided together with the sides of the cells
+  std::vector<CellFacts> facts;     // of each file
 };
 
 // Converts all features. The facts have the faults of features that were repaired, and remarks on

@@ -18,11 +18,17 @@
 #include "overlay/gathered_rows.h"
 #include "overlay/grid_walk.h"
 #include "overlay/measure.h"
+#include "overlay/straight_sides.h"
+#include "overlay/straight_walk.h"
 #include "predicates/bounds.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
 namespace {
+
+bool has_straight_sides(const CellSetData& cells, Index name) {
+  return cells.straight_sides() != nullptr && !cells.straight_sides()->rows()[name].empty();
+}
 
 // The piece of a cell in a cell of the grid.
 struct GridPiece {
@@ -105,30 +111,29 @@ class GridPieceMaker {
         grid_(grid),
         places_(places),
         walk_(grid, has_moments),
+        straight_walk_(grid, has_moments),
         has_moments_(has_moments) {}
 
   // GCC takes this and what it calls for code that seldom runs, and makes it small and slow, where it
   // is a part of its one caller.
   [[gnu::noinline]] std::span<const GridPiece> operator()(Index cell) {
-    const Subdivision& subdivision = cells_.subdivision();
-    strips_.clear();
-    for (Index ring = subdivision.cells[cell]; ring < subdivision.cells[cell + 1]; ++ring) {
-      const Index first = subdivision.rings[ring];
-      const Index end = subdivision.rings[ring + 1];
-      for (Halfedge h = first; h < end; ++h) {
-        walk_.append(places_[subdivision.corners[h]],
-                     places_[subdivision.corners[h + 1 < end ? h + 1 : first]], strips_);
-      }
-    }
+    const Index name = cells_.subdivision().names[cell];
+    const bool is_straight = has_straight_sides(cells_, name);
+    find_strips(cell, is_straight);
     pieces_.clear();
-    const Index name = subdivision.names[cell];
-    const double area = cells_.areas()[name];
+    const double area = cells_.areas(Borders::straight)[name];
+    const double length = cells_.lengths(Borders::straight)[name];
     if (strips_.empty()) return pieces_;
-    const bool has_pole = has_north_pole(area);
+    // The sides of a cell in the plane go along the pole.
+    const bool has_pole = !is_straight && has_north_pole(area);
     if (is_within_one() && !has_pole) {
       const Index there = grid_.cell(strips_.front().column, strips_.front().row);
-      if (there != no_index && area > 0)
-        pieces_.push_back({there, area, 0, cells_.moments()[name]});
+      if (there != no_index && area > 0) {
+        const bool has_own = is_straight && has_moments_;
+        pieces_.push_back(
+            {there, area, 0,
+             has_own ? cells_.straight_sides()->moment(name) : cells_.moments()[name]});
+      }
       return pieces_;
     }
     order_strips();
@@ -141,15 +146,34 @@ class GridPieceMaker {
       next = add_column(column, next, has_pole);
     }
     if (grid_.covers_sphere()) {
-      require_sum(pieces_, area, cells_.lengths()[name], name);
+      require_sum(pieces_, area, length, name);
     }
-    drop_rounding(pieces_, area, cells_.lengths()[name]);
+    drop_rounding(pieces_, area, length);
     return in_order();
   }
   static Index column(const GridPiece& piece) { return piece.cell; }
   static Index place(const GridPiece& piece) { return piece.cell; }
 
  private:
+  void find_strips(Index cell, bool is_straight) {
+    const Subdivision& subdivision = cells_.subdivision();
+    strips_.clear();
+    if (is_straight) {
+      for (const LonLatSide& side : cells_.straight_sides()->rows()[subdivision.names[cell]]) {
+        straight_walk_.append(side, strips_);
+      }
+      return;
+    }
+    for (Index ring = subdivision.cells[cell]; ring < subdivision.cells[cell + 1]; ++ring) {
+      const Index first = subdivision.rings[ring];
+      const Index end = subdivision.rings[ring + 1];
+      for (Halfedge h = first; h < end; ++h) {
+        walk_.append(places_[subdivision.corners[h]],
+                     places_[subdivision.corners[h + 1 < end ? h + 1 : first]], strips_);
+      }
+    }
+  }
+
   // True if the north pole is in the cell. The area south of the arcs then differs from the cell's
   // area by that of the sphere.
   [[nodiscard]] bool has_north_pole(double area) const {
@@ -292,6 +316,7 @@ class GridPieceMaker {
   const PreparedGrid& grid_;
   std::span<const PlaceInGrid> places_;
   GridWalk walk_;
+  StraightWalk straight_walk_;
   bool has_moments_;
   std::vector<Strip> strips_;
   std::vector<Rank> order_;
@@ -304,7 +329,10 @@ class GridPieceMaker {
 PieceRows pieces(const CellSetData& cells, const PreparedGrid& grid, bool has_moments,
                  const Execution& execution, bool has_column_sums) {
   const Subdivision& subdivision = cells.subdivision();
-  LargeVector<PlaceInGrid> places(subdivision.points.size());
+  // The corners of arcs have places. Where all sides are straight, there are none.
+  const bool has_arcs = !std::ranges::all_of(
+      subdivision.names, [&](Index name) { return has_straight_sides(cells, name); });
+  LargeVector<PlaceInGrid> places(has_arcs ? subdivision.points.size() : 0);
   const GridWalk walk(grid, has_moments);
   system::parallel_for(execution.threads, places.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {

@@ -188,12 +188,13 @@ class OverlapFinder {
     }
   }
 
-  // Finds all overlaps. A cell that overlaps itself is not compared with others.
-  void find() {
+  // Finds all overlaps, or some of them if `is_one_enough`. A cell that overlaps itself is not
+  // compared with others.
+  void find(bool is_one_enough) {
     find_in_themselves();
     if (is_one_region()) return;
     const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
-    for (std::size_t k = 0; k < all.size();) {
+    for (std::size_t k = 0; k < all.size() && !(is_one_enough && !found_.empty());) {
       std::size_t end = k;
       std::vector<Index> others;
       for (; end < all.size() && all[end].filled == all[k].filled; ++end) {
@@ -312,7 +313,7 @@ class OverlapFinder {
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution) {
   OverlapFinder finder(cells, execution);
-  finder.find();
+  finder.find(false);
   std::vector<CrossingCells> found = finder.take();
   for (std::size_t k = 0; k < whole.size(); ++k) {
     for (std::size_t i = k + 1; i < whole.size(); ++i) {
@@ -326,6 +327,12 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
   std::ranges::stable_sort(
       found, {}, [](const CrossingCells& pair) { return std::pair(pair.first, pair.second); });
   return found;
+}
+
+bool has_overlaps(const Subdivision& cells, const Execution& execution) {
+  OverlapFinder finder(cells, execution);
+  finder.find(true);
+  return !finder.take().empty();
 }
 
 std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,

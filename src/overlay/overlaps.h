@@ -26,6 +26,9 @@ namespace rondel::overlay {
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 
+// True if any cells overlap each other or themselves. That is found faster than all pairs.
+bool has_overlaps(const Subdivision& cells, const Execution& execution);
+
 // Returns the cells that cross or overlap themselves by more than rounding, each as a pair of the
 // cell with itself, by ascending indices of the input.
 std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,

@@ -27,6 +27,7 @@
 #include "exact/angles.h"
 #include "overlay/arc_bulge.h"
 #include "overlay/measure.h"
+#include "overlay/straight_sides.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
@@ -51,10 +52,7 @@ class LineStrips {
     const double middle = (from.lat_deg + to.lat_deg) / 2;
     const exact::SineCosine at_middle = exact::sine_cosine_of_degrees(middle);
     const double ratio = sine_ratio_less_one(height / 2);
-    // This is sin f - sin r for the reference latitude r.
-    const double rise = 2 * exact::sine_cosine_of_degrees((middle + reference_deg_) / 2).cosine *
-                        sine_of((middle - reference_deg_) / 2);
-    area_ += width * (rise + at_middle.sine * ratio);
+    area_ += width * mean_rise(reference_deg_, from.lat_deg, to.lat_deg);
     length_ += std::abs(width) * at_middle.cosine;
     if (std::abs(from.lat_deg) == 90 && std::abs(to.lat_deg) == 90) return;
     const exact::SineCosine half = exact::sine_cosine_of_degrees((to.lat_deg - from.lat_deg) / 2);

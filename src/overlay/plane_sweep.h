@@ -15,15 +15,13 @@
 #include <vector>
 
 #include "map/polygon_features.h"
+#include "rondel/cell_rings.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
 // A straight side with the inside to its left.
-struct PlaneSide {
-  LonLat from;
-  LonLat to;
-};
+using PlaneSide = LonLatSide;
 
 // The kinds of invalid polygons.
 enum class PlaneFaultKind : std::uint8_t {

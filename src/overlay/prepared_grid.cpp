@@ -190,14 +190,18 @@ void PreparedGrid::append_neighbors(Index cell, std::vector<Index>& neighbors) c
 }
 
 // Differences of latitudes and of distances from a pole are exact where they are small.
-double height_between(const PreparedGrid::Parallel& south, const PreparedGrid::Parallel& north) {
+double rise_between(double low_deg, double high_deg) {
   constexpr double half_way = 45;
-  const double middle = south.lat_deg / 2 + north.lat_deg / 2;
-  const double from_pole = (90 - std::abs(south.lat_deg)) / 2 + (90 - std::abs(north.lat_deg)) / 2;
+  const double middle = low_deg / 2 + high_deg / 2;
+  const double from_pole = (90 - std::abs(low_deg)) / 2 + (90 - std::abs(high_deg)) / 2;
   const double cosine = std::abs(middle) > half_way ? exact::sine_cosine_of_degrees(from_pole).sine
                                                     : exact::sine_cosine_of_degrees(middle).cosine;
-  const double half = north.lat_deg / 2 - south.lat_deg / 2;
+  const double half = high_deg / 2 - low_deg / 2;
   return 2 * cosine * exact::sine_cosine_of_degrees(half).sine;
+}
+
+double height_between(const PreparedGrid::Parallel& south, const PreparedGrid::Parallel& north) {
+  return rise_between(south.lat_deg, north.lat_deg);
 }
 
 namespace {

@@ -142,6 +142,9 @@ class PreparedGrid {
   std::vector<double> latitudes_;
 };
 
+// Returns the difference between the sines of two latitudes in degrees, to some units in the last place.
+double rise_between(double low_deg, double high_deg);
+
 // Returns the difference between the sines of two parallels, to some units in the last place.
 double height_between(const PreparedGrid::Parallel& south, const PreparedGrid::Parallel& north);
 

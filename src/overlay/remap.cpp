@@ -254,7 +254,8 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   PieceRows pieces =
       overlay::joined_parts(overlay_of(*of_sources.data, *of_targets.data, is_second, execution),
                             of_targets, result.target.num_cells(), of_sources);
-  const overlay::CountedSizes source_sizes(sources, of_sources);
+  const overlay::Borders borders = CellSetData::borders_between(sources, targets);
+  const overlay::CountedSizes source_sizes(sources, of_sources, borders);
   drop_masked(result.source, result.target, pieces);
   // With order 2 sums are those of the rows as they are, which weights_with_values() and tiles of
   // weights compute again.
@@ -264,7 +265,8 @@ void complete(Remap& result, CellOverlap overlap, const Execution& execution) {
   result.pieces = {std::move(pieces.offsets), std::move(pieces.columns)};
   result.areas = std::move(pieces.areas);
   result.source_areas = areas_of(pieces.column_sums, source_sizes);
-  result.target_areas = areas_of(pieces.row_sums, overlay::CountedSizes(targets, of_targets));
+  result.target_areas =
+      areas_of(pieces.row_sums, overlay::CountedSizes(targets, of_targets, borders));
   result.source_fractions = fractions(pieces.column_sums, result.source_areas);
   result.target_fractions = fractions(pieces.row_sums, result.target_areas);
 

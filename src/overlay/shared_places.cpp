@@ -52,28 +52,40 @@ std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
 }
 
 // Cuts cells into parts; others[i] are the cells whose overlaps with cell i are to be separated.
-OverlaySide cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
-                   const Execution& execution) {
+OverlaySide cut_up(const CellRings& cells, const StraightSides* straight,
+                   const std::vector<std::vector<Index>>& others, const Execution& execution) {
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   OverlaySide result;
   CellRings all;
+  // What cells that overlap have of each other is between arcs, so that they have arcs.
+  CompressedRows<LonLatSide> sides;
+  std::vector<bool> overlaps(others.size(), false);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (!others[i].empty()) overlaps[i] = true;
+    for (const Index other : others[i]) overlaps[other] = true;
+  }
   all.points = cells.points;
   for (Index i = 0; i < cells.num_cells(); ++i) {
     if (others[i].empty()) {
       all.append_cell(cells, i);
+      const bool is_straight = straight != nullptr && !overlaps[i];
+      sides.append(is_straight ? straight->rows()[i] : std::span<const LonLatSide>());
       result.owners.append({&i, 1});
       continue;
     }
     for (const OwnedPart& part : parts_of_cell(cells, i, others[i], told)) {
       append(part.rings, all);
+      sides.end_row();
       result.owners.append(part.owners);
     }
   }
   merge_equal_points(all);
   std::vector<Index> whole = all.whole;
   Subdivision parts = sound_cells(all, whole, told);
-  result.parts =
-      std::make_shared<const CellSetData>(std::move(parts), std::move(whole), execution.threads);
+  const auto data =
+      std::make_shared<CellSetData>(std::move(parts), std::move(whole), execution.threads);
+  data->keep_straight_sides(std::move(sides), execution.threads);
+  result.parts = data;
   result.data = result.parts.get();
   return result;
 }
@@ -97,11 +109,24 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
   return result;
 }
 
+// Throws InvalidInput with the first cell that takes part and crosses or overlaps itself.
+void require_simple_cells(const CellSetData& cells, const CellFacts& facts, const char* what) {
+  for (const CrossingCells& pair : cells.cells_crossing_themselves()) {
+    if (is_masked(facts.mask, pair.first)) continue;
+    throw InvalidInput(std::string(what) + ' ' + message_of(pair, facts.columns), pair.first);
+  }
+}
+
 }  // namespace
 
 OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOverlap rule,
                         const char* what, const Execution& execution) {
   const std::vector<std::int32_t>& mask = facts.mask;
+  if (rule == CellOverlap::each && cells.all_whole().empty()) {
+    // Each cell has its own pieces, whatever the others have.
+    require_simple_cells(cells, facts, what);
+    return {&cells};
+  }
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);
@@ -120,7 +145,7 @@ OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOv
     others[pair.second].push_back(pair.first);
     if (rule != CellOverlap::first) others[pair.first].push_back(pair.second);
   }
-  OverlaySide side = cut_up(rings, others, execution);
+  OverlaySide side = cut_up(rings, cells.straight_sides(), others, execution);
   side.is_whole_for_each = rule == CellOverlap::each;
   return side;
 }
@@ -174,19 +199,20 @@ PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t nu
   return joined;
 }
 
-CountedSizes::CountedSizes(const CellSetData& cells, const OverlaySide& part)
-    : cells_(cells), of_parts_(part.has_parts()) {
+CountedSizes::CountedSizes(const CellSetData& cells, const OverlaySide& part, Borders borders)
+    : cells_(cells), borders_(borders), of_parts_(part.has_parts()) {
   if (!of_parts_) return;
   const std::size_t n = cells.areas().size();
   areas_.resize(n);
   lengths_.resize(n);
   moments_.resize(n);
+  const std::vector<Point> moments = part.data->moments(borders);
   for (Index k = 0; k < part.owners.size(); ++k) {
     const double share = part.share_of(k);
     for (const Index owner : part.owners_of(k)) {
-      areas_[owner] += share * part.data->areas()[k];
-      lengths_[owner] += part.data->lengths()[k];
-      moments_[owner] = moments_[owner] + share * part.data->moments()[k];
+      areas_[owner] += share * part.data->areas(borders)[k];
+      lengths_[owner] += part.data->lengths(borders)[k];
+      moments_[owner] = moments_[owner] + share * moments[k];
     }
   }
 }

@@ -53,19 +53,20 @@ PieceRows joined_parts(PieceRows pieces, const OverlaySide& rows, std::size_t nu
 // the length of its border.
 class CountedSizes {
  public:
-  CountedSizes(const CellSetData& cells, const OverlaySide& part);
+  CountedSizes(const CellSetData& cells, const OverlaySide& part, Borders borders);
   [[nodiscard]] const std::vector<double>& areas() const {
-    return of_parts_ ? areas_ : cells_.areas();
+    return of_parts_ ? areas_ : cells_.areas(borders_);
   }
   [[nodiscard]] const std::vector<double>& lengths() const {
-    return of_parts_ ? lengths_ : cells_.lengths();
+    return of_parts_ ? lengths_ : cells_.lengths(borders_);
   }
-  [[nodiscard]] const std::vector<Point>& moments() const {
-    return of_parts_ ? moments_ : cells_.moments();
+  [[nodiscard]] std::vector<Point> moments() const {
+    return of_parts_ ? moments_ : cells_.moments(borders_);
   }
 
  private:
   const CellSetData& cells_;
+  Borders borders_;
   bool of_parts_;
   std::vector<double> areas_;
   std::vector<double> lengths_;

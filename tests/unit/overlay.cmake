@@ -32,6 +32,7 @@ rondel_add_test(overlay_test
   overlay/rings_test.cpp
   overlay/shapes.cpp
   overlay/snaps_test.cpp
+  overlay/straight_test.cpp
   overlay/subdivision_test.cpp
   overlay/sweep_test.cpp
   overlay/thin_test.cpp

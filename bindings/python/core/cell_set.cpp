@@ -46,6 +46,27 @@ std::optional<LinesOut> lines_out(const CellSet& cells) {
                   to_array<double>(std::move(lines.lat_deg)), std::string(name_of(sides))};
 }
 
+// Offsets of the sides of each cell, and longitudes and latitudes of their ends.
+using SidesIn = nb::ndarray<const double, nb::shape<-1, 4>, nb::c_contig, nb::device::cpu>;
+using SidesOut = std::pair<ArrayOut<std::int64_t>, ArrayOut<double>>;
+
+// Returns the straight sides of cells, or nothing if none are known.
+std::optional<SidesOut> sides_out(const CellSet& cells) {
+  CompressedRows<LonLatSide> sides = cells.sides();
+  if (sides.size() == 0) return std::nullopt;
+  return SidesOut{offsets_out(std::move(sides.offsets)), to_array<double>(std::move(sides.values))};
+}
+
+// Returns cells whose arcs stand for straight sides.
+CellSet straight_polygons(const CellRings& rings, const OffsetsIn& offsets, const SidesIn& sides,
+                          unsigned threads) {
+  return unlocked([&] {
+    CompressedRows<LonLatSide> rows{vector_of<std::uint64_t>(offsets),
+                                    vector_of<LonLatSide>(sides)};
+    return CellSet::polygons(rings, std::move(rows), {.threads = threads});
+  });
+}
+
 // Returns a choice of the polygons whose group is not below 0, or of all without groups.
 FeatureChoice chosen(const std::optional<IndicesIn>& groups) {
   if (!groups) return {};
@@ -201,6 +222,8 @@ void add_makers(nb::class_<CellSet>& cells) {
             return unlocked([&] { return CellSet::polygons(rings, {.threads = threads}); });
           },
           nb::arg("rings"), nb::arg("threads"))
+      .def_static("straight_polygons", &straight_polygons, nb::arg("rings"), nb::arg("offsets"),
+                  nb::arg("sides"), nb::arg("threads"))
       .def_static(
           "valid_polygons",
           [](const CellRings& rings, unsigned threads) {
@@ -281,6 +304,7 @@ void add_cell_set(nb::module_& module) {
                    })
       .def("centers", [](const CellSet& self) { return points_out(self.centers()); })
       .def("lines", &lines_out)
+      .def("sides", &sides_out)
       .def("rings", [](const CellSet& self) { return unlocked([&] { return self.rings(); }); })
       .def("given_rings",
            [](const CellSet& self) { return unlocked([&] { return self.given_rings(); }); })

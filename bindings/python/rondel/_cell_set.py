@@ -101,7 +101,9 @@ class CellSet(Described):
         elif lines is not None:
             made = ("lonlat_grid", *lines)
         else:
-            made = ("polygons", arrays_of(self._cells.given_rings()))
+            rings = arrays_of(self._cells.given_rings())
+            sides = self._cells.sides()
+            made = ("polygons", rings) if sides is None else ("straight_polygons", rings, *sides)
         return {"made": made, "facts": arrays_of(self._cells.facts)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -110,8 +112,8 @@ class CellSet(Described):
         self._origin = (name, given[0]) if is_of_sites else None
         if is_of_sites:
             given = [given[0]._triangulation]
-        elif name == "polygons":
-            given = [with_arrays(_core.CellRings(), given[0])]
+        elif name in ("polygons", "straight_polygons"):
+            given[0] = with_arrays(_core.CellRings(), given[0])
         cells = getattr(_core.CellSet, name)(*given, 0)
         self._cells = cells.with_facts(with_arrays(_core.CellFacts(), state["facts"]))
 

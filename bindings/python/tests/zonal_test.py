@@ -74,14 +74,28 @@ def expected(field, box, by_fraction):
     }
 
 
-def as_cells():
-    """The boxes as cells between parallels, of which polygons are not."""
+def as_grids():
+    """The boxes as cells between parallels."""
     return [rondel.CellSet.lonlat_grid(box[::2], box[1::2]) for box in BOXES]
 
 
+def as_polygons():
+    """The boxes as polygons."""
+    return [[box_polygon(*box)] for box in BOXES]
+
+
+def polygon(*ring):
+    return {"type": "Polygon", "coordinates": [[*map(list, ring), list(ring[0])]]}
+
+
+def box_polygon(west, south, east, north):
+    return polygon((west, south), (east, south), (east, north), (west, north))
+
+
 @pytest.mark.parametrize("weights", ["area", "fraction"])
-def test_all_statistics_are_those_of_numpy(data, weights):
-    for box, zone in zip(BOXES, as_cells(), strict=True):
+@pytest.mark.parametrize("make", [as_grids, as_polygons])
+def test_all_statistics_are_those_of_numpy(data, weights, make):
+    for box, zone in zip(BOXES, make(), strict=True):
         table = rondel.zonal_statistics(data, zone, NAMES.split(), weights=weights)
         assert list(table.index) == [(0, 10), (0, 20)]
         assert table.index.names == ["zone", "time"]
@@ -90,6 +104,51 @@ def test_all_statistics_are_those_of_numpy(data, weights):
             assert list(table.columns) == list(wanted)
             for name, value in wanted.items():
                 assert table[name].iloc[time] == pytest.approx(value, rel=1e-12), (name, box)
+
+
+@pytest.mark.parametrize("step", [0.1, 0.01])
+def test_boxes_along_cells_have_no_other_cells(step):
+    n, m = round(4 / step), round(0.2 / step)
+    lon, lat = (np.arange(n) + 0.5) * step, 45 + (np.arange(m) + 0.5) * step
+    field = np.where(lat < 45.1, 1.0, 999.0)[:, None] * np.ones(n)
+    field = xarray.DataArray(field, {"lat": lat, "lon": lon}, ("lat", "lon"))
+    boxes = [
+        box_polygon(0, 45, 4, 45.1),
+        box_polygon(0, 45.1 - step, 4, 45.1),
+        box_polygon(0.5, 44.5, 2, 45.1),
+    ]
+    table = rondel.zonal_statistics(field, boxes, "mean,max,variety,count", max_missing=1)
+    np.testing.assert_allclose(table[["mean", "max", "variety"]], 1, rtol=1e-12)
+    counts = [n * round(0.1 / step), n, round(1.5 / step) * round(0.1 / step)]
+    np.testing.assert_allclose(table["count"], counts, rtol=1e-9)
+    # Each box is the same alone.
+    for k, box in enumerate(boxes):
+        alone = rondel.zonal_statistics(field, [box], "mean,max,variety,count", max_missing=1)
+        np.testing.assert_allclose(table.iloc[[k]], alone, rtol=1e-12)
+    half = rondel.remap(
+        rondel.CellSet.lonlat_centers(lon, lat), rondel.polygons([box_polygon(-4, 45, 4, 45.2)])
+    )
+    assert half.target_fractions == pytest.approx([0.5], abs=1e-12)
+
+
+def test_slanted_sides_are_straight_in_longitude_and_latitude():
+    """Against strips of latitude that NumPy sums, for a triangle across the antimeridian."""
+    lat = np.arange(50.005, 60, 0.01)
+    lon = np.arange(175.05, 186, 0.1)
+    field = np.sin(np.arange(lat.size))[:, None] + np.cos(np.arange(lon.size))
+    data = xarray.DataArray(field, {"lat": lat, "lon": lon}, ("lat", "lon"))
+    corners = [(176.0, 51.0), (185.0, 54.0), (178.0, 59.0)]
+    mean = rondel.zonal_statistics(data, [polygon(*corners)])["mean"].iloc[0]
+    # At a latitude the triangle is between the long side and one of the two others.
+    fine = 51 + (np.arange(400_000) + 0.5) * (8 / 400_000)
+    west = np.interp(fine, [51, 59], [176, 178])
+    east = np.interp(fine, [51, 54, 59], [176, 185, 178])
+    weights = np.zeros(field.shape)
+    row = ((fine - 50) / 0.01).astype(int)
+    for column, center in enumerate(lon):
+        width = np.clip(np.minimum(east, center + 0.05) - np.maximum(west, center - 0.05), 0, None)
+        weights[:, column] = np.bincount(row, width * np.cos(np.radians(fine)), minlength=lat.size)
+    assert mean == pytest.approx((weights * field).sum() / weights.sum(), rel=1e-8)
 
 
 def test_zones_keep_their_index_and_columns(data):
