@@ -19,10 +19,18 @@ namespace rondel::arrangement {
 
 // Where coordinates are smaller, products of differences lose bits to underflow.
 constexpr double least_coordinate = 0x1p-150;
+// How far the lengths of unit vectors may be from 1.
+constexpr double max_deviation = 1e-14;
+
+// Returns a point near the sphere as arrange() wants it; most points are so already.
+inline Point arrangeable(const Point& p) {
+  const auto kept = [](double x) { return std::abs(x) < least_coordinate ? 0.0 : x; };
+  const Point rounded = {kept(p.x), kept(p.y), kept(p.z)};
+  return std::abs(norm(rounded) - 1) <= max_deviation ? rounded : exact::normalized(rounded);
+}
 
 // Throws InvalidInput with the first point that is not as arrange() wants it.
 inline void validate_points(std::span<const Point> points) {
-  constexpr double max_deviation = 1e-14;
   const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];

@@ -133,6 +133,10 @@ std::vector<Region> regions_of(const Sides& sides, const RegionRule& rule, Regio
 Region joined_region(const Sides& sides, SetOperation operation, RegionParts parts,
                      const Execution& execution);
 
+// Returns the sides with some polygons replaced by what they are alone, so that it does not depend
+// on the others.
+Sides mended(const Sides& sides, const std::vector<Index>& polygons, const Execution& execution);
+
 // Returns a cell for each region. Points are sorted by their coordinates; a ring begins at its
 // first point, and the rings of a cell are sorted.
 CellRings cells_of(std::span<const Region> regions, unsigned threads);

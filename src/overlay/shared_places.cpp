@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "arrangement/arc_checks.h"
+#include "arrangement/owned_parts.h"
 #include "exact/vector.h"
 #include "overlay/overlaps.h"
 #include "overlay/single_cells.h"
@@ -20,64 +22,35 @@
 namespace rondel::overlay {
 namespace {
 
-// A part of a cell, and all cells that have it.
-struct OwnedPart {
-  CellRings rings;
-  std::vector<Index> owners;
-};
-
-// Returns the parts of a cell that no cell before it has. Parts that later cells have as well are
-// separate. `others` are the cells that overlap with the cell.
-std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
-                                     const std::vector<Index>& others, const Execution& execution) {
-  std::vector<OwnedPart> parts = {{one_cell(cells, cell), {cell}}};
-  for (const Index other : others) {
-    const CellRings there = one_cell(cells, other);
-    const CellSet inside = CellSet::polygons(there);
-    const CellSet outside = CellSet::polygons(beyond_cell(there));
-    std::vector<OwnedPart> cut;
-    for (const OwnedPart& part : parts) {
-      const CellSet whole_part = CellSet::polygons(part.rings);
-      CellRings left = clip(whole_part, outside, execution);
-      if (has_any(left)) cut.push_back({std::move(left), part.owners});
-      if (other < cell) continue;
-      CellRings both = clip(whole_part, inside, execution);
-      if (!has_any(both)) continue;
-      cut.push_back({std::move(both), part.owners});
-      cut.back().owners.push_back(other);
-    }
-    parts = std::move(cut);
-  }
-  return parts;
-}
-
-// Cuts cells into parts; others[i] are the cells whose overlaps with cell i are to be separated.
+// Cuts the cells that overlap, of which `is_cut` tells, into parts; the others stay as they are.
+// What cells that overlap have of each other is between arcs, so that they lose straight sides.
 OverlaySide cut_up(const CellRings& cells, const StraightSides* straight,
-                   const std::vector<std::vector<Index>>& others, const Execution& execution) {
+                   const std::vector<bool>& is_cut, arrangement::PlaceOwners rule,
+                   const Execution& execution) {
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   OverlaySide result;
   CellRings all;
-  // What cells that overlap have of each other is between arcs, so that they have arcs.
+  CellRings crowded;
+  std::vector<Index> names;  // of the crowded cells
   CompressedRows<LonLatSide> sides;
-  std::vector<bool> overlaps(others.size(), false);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    if (!others[i].empty()) overlaps[i] = true;
-    for (const Index other : others[i]) overlaps[other] = true;
-  }
   all.points = cells.points;
   for (Index i = 0; i < cells.num_cells(); ++i) {
-    if (others[i].empty()) {
-      all.append_cell(cells, i);
-      const bool is_straight = straight != nullptr && !overlaps[i];
-      sides.append(is_straight ? straight->rows()[i] : std::span<const LonLatSide>());
-      result.owners.append({&i, 1});
+    if (is_cut[i]) {
+      append(one_cell(cells, i), crowded);
+      names.push_back(i);
       continue;
     }
-    for (const OwnedPart& part : parts_of_cell(cells, i, others[i], told)) {
-      append(part.rings, all);
-      sides.end_row();
-      result.owners.append(part.owners);
-    }
+    all.append_cell(cells, i);
+    sides.append(straight != nullptr ? straight->rows()[i] : std::span<const LonLatSide>());
+    result.owners.append({&i, 1});
+  }
+  std::ranges::transform(crowded.points, crowded.points.begin(), arrangement::arrangeable);
+  const arrangement::OwnedParts found = arrangement::owned_parts(crowded, rule, told);
+  for (Index k = 0; k < found.parts.num_cells(); ++k) {
+    append(one_cell(found.parts, k), all);
+    sides.end_row();
+    for (const Index owner : found.owners[k]) result.owners.values.push_back(names[owner]);
+    result.owners.end_row();
   }
   merge_equal_points(all);
   std::vector<Index> whole = all.whole;
@@ -109,28 +82,20 @@ CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask
   return result;
 }
 
-// Throws InvalidInput with the first cell that takes part and crosses or overlaps itself.
-void require_simple_cells(const CellSetData& cells, const CellFacts& facts, const char* what) {
-  for (const CrossingCells& pair : cells.cells_crossing_themselves()) {
-    if (is_masked(facts.mask, pair.first)) continue;
-    throw InvalidInput(std::string(what) + ' ' + message_of(pair, facts.columns), pair.first);
-  }
-}
-
 }  // namespace
 
 OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOverlap rule,
                         const char* what, const Execution& execution) {
   const std::vector<std::int32_t>& mask = facts.mask;
-  if (rule == CellOverlap::each && cells.all_whole().empty()) {
-    // Each cell has its own pieces, whatever the others have.
-    require_simple_cells(cells, facts, what);
+  // Each cell has its own pieces then, whatever the others have.
+  if (rule == CellOverlap::each && cells.all_whole().empty() &&
+      cells.cells_crossing_themselves().empty()) {
     return {&cells};
   }
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);
-  std::vector<std::vector<Index>> others(rings.num_cells());
+  std::vector<bool> is_cut(rings.num_cells(), false);
   for (const CrossingCells& pair : overlaps) {
     if (is_masked(mask, pair.first) || is_masked(mask, pair.second)) continue;
     const std::string message = std::string(what) + ' ' + message_of(pair, facts.columns);
@@ -142,10 +107,12 @@ OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOv
                                         : " or share (overlap='first' in Python) takes them"),
                          pair.second);
     }
-    others[pair.second].push_back(pair.first);
-    if (rule != CellOverlap::first) others[pair.first].push_back(pair.second);
+    is_cut[pair.first] = true;
+    is_cut[pair.second] = true;
   }
-  OverlaySide side = cut_up(rings, cells.straight_sides(), others, execution);
+  const auto owners =
+      rule == CellOverlap::first ? arrangement::PlaceOwners::first : arrangement::PlaceOwners::all;
+  OverlaySide side = cut_up(rings, cells.straight_sides(), is_cut, owners, execution);
   side.is_whole_for_each = rule == CellOverlap::each;
   return side;
 }

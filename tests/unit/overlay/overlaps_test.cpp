@@ -236,6 +236,48 @@ TEST(overlay_overlaps, places_of_several_cells_of_both_sides_are_shared) {
   }
 }
 
+// Cells around one point, the largest first, with corners that are unit vectors up to 1e-13.
+CellSet nested_cells(std::size_t number) {
+  CellRings cells;
+  for (std::size_t k = 0; k < number; ++k) {
+    constexpr Index corners = 24;
+    for (Index c = 0; c < corners; ++c) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()));
+      const double angle = 2 * std::numbers::pi * c / corners;
+      const double lat = 90 - 20 * (1 - static_cast<double>(k) / static_cast<double>(number));
+      const Point p = unit_vector({angle * 180 / std::numbers::pi, lat});
+      cells.points.push_back((1 + 1e-13 * (c % 3)) * p);
+    }
+    cells.end_ring();
+    cells.end_cell();
+  }
+  return CellSet::polygons(cells);
+}
+
+TEST(overlay_overlaps, nested_cells_share_what_they_have_in_common) {
+  constexpr std::size_t number = 60;
+  const CellSet cells = nested_cells(number);
+  const CellSet grid = CellSet::lonlat_grid(GlobalGrid{36, 18});
+  const Remap shared = remap(grid, cells, {.overlap = CellOverlap::share});
+  const Remap first = remap(grid, cells, {.overlap = CellOverlap::first});
+  const Remap each = remap(grid, cells, {.overlap = CellOverlap::each});
+  std::vector<double> all(number);
+  for (std::size_t k = 0; k < number; ++k) all[k] = cells.areas()[k];
+  std::vector<double> of_cell(number, 0);
+  for (std::size_t k = 0; k < number; ++k) {
+    const double ring = all[k] - (k + 1 < number ? all[k + 1] : 0);
+    for (std::size_t owner = 0; owner <= k; ++owner) {
+      of_cell[owner] += ring / static_cast<double>(k + 1);
+    }
+  }
+  for (std::size_t k = 0; k < number; ++k) {
+    EXPECT_NEAR(shared.target_areas[k], of_cell[k], 1e-12) << k;
+    EXPECT_NEAR(first.target_areas[k], k == 0 ? all[0] : 0, 1e-12) << k;
+    EXPECT_NEAR(each.target_areas[k], all[k], 1e-12) << k;
+    EXPECT_NEAR(shared.target_fractions[k], 1, 1e-9) << k;
+  }
+}
+
 // Borders that were written twice and do not quite agree: boxes whose corners are off, each by itself.
 TEST(overlay_overlaps, the_first_of_features_whose_borders_nearly_agree) {
   Random random(11);
