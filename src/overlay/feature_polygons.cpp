@@ -432,7 +432,7 @@ class FeatureCells {
     share_polar_corners(sides, divided);
     lines_ = divided_lines(features_, divided, first_of_lines);
     CellRings cells = cells_of_sides(sides, owners, divided);
-    keep_sides(std::move(sides), owners);
+    keep_sides(sides, owners);
     // A feature that has an area in the plane but no border on the sphere covers the sphere.
     for (std::size_t f = 0; f < turns.size(); ++f) {
       if (turns[f] > 0 && cells.cells[f] == cells.cells[f + 1]) {
@@ -451,13 +451,13 @@ class FeatureCells {
   }
 
   // Keeps the sides that have owners, which are in order.
-  void keep_sides(std::vector<PlaneSide> sides, std::span<const Index> owners) {
-    sides.resize(owners.size());
-    sides_.values = std::move(sides);
+  void keep_sides(std::span<const PlaneSide> sides, std::span<const Index> owners) {
+    sides_.values.reserve(owners.size());
     sides_.offsets.reserve(features_.rings.size() + 1);
-    for (std::size_t f = 0, end = 0; f < features_.rings.size(); ++f) {
-      while (end < owners.size() && owners[end] == f) ++end;
-      sides_.offsets.push_back(end);
+    std::size_t next = 0;
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      while (next < owners.size() && owners[next] == f) sides_.values.push_back(sides[next++]);
+      sides_.end_row();
     }
   }
   // Removes the sides of features that overlap: what is left of them is between arcs.

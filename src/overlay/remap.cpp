@@ -33,19 +33,37 @@ namespace {
 using overlay::CellSetData;
 using overlay::PieceRows;
 
-// Returns the pieces of one cell that is the whole sphere, in row `whole`: they are all of `cells`,
-// which are the other side. If the whole sphere is a source, the caller transposes the result.
-PieceRows whole_cells(const CellSetData& cells, Index whole, std::size_t num_rows) {
-  PieceRows pieces;
-  for (std::size_t i = 0; i < cells.areas().size(); ++i) {
-    if (!(cells.areas()[i] > 0)) continue;
-    pieces.columns.push_back(static_cast<Index>(i));
-    pieces.areas.push_back(cells.areas()[i]);
-    pieces.moments.push_back(cells.moments()[i]);
+// Returns the pieces with those of the cells `whole`, which are the whole sphere and have no pieces
+// yet: all of `cells`, which are the other side.
+PieceRows with_whole_cells(const PieceRows& pieces, const std::vector<Index>& whole,
+                           const CellSetData& cells, bool has_moments) {
+  PieceRows result;
+  auto next = whole.begin();
+  for (std::size_t row = 0; row + 1 < pieces.offsets.size(); ++row) {
+    if (next != whole.end() && *next == row) {
+      ++next;
+      for (std::size_t i = 0; i < cells.areas().size(); ++i) {
+        if (!(cells.areas()[i] > 0)) continue;
+        result.columns.push_back(static_cast<Index>(i));
+        result.areas.push_back(cells.areas()[i]);
+        if (has_moments) result.moments.push_back(cells.moments()[i]);
+      }
+    }
+    for (std::uint64_t k = pieces.offsets[row]; k < pieces.offsets[row + 1]; ++k) {
+      result.columns.push_back(pieces.columns[k]);
+      result.areas.push_back(pieces.areas[k]);
+      if (has_moments) result.moments.push_back(pieces.moments[k]);
+    }
+    result.end_row();
   }
-  pieces.offsets = system::offsets_of(
-      num_rows, [&](std::size_t row) { return row == whole ? pieces.columns.size() : 0; });
-  return pieces;
+  return result;
+}
+
+// Returns rows without pieces.
+PieceRows empty_rows(std::size_t num_rows) {
+  PieceRows rows;
+  rows.offsets.assign(num_rows + 1, 0);
+  return rows;
 }
 
 // Computes the pieces of two sets of cells of which neither covers the sphere. Rows are targets.
@@ -63,15 +81,10 @@ PieceRows overlay_of_parts(const CellSetData& source, const CellSetData& target,
   return overlay::with_one_filled(sources, targets, {"source", "target"}, execution, with);
 }
 
-// Computes the pieces of two sets of cells. Rows are targets, columns are sources.
-PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool has_moments,
-                     const Execution& execution) {
-  const std::size_t num_sources = source.areas().size();
+// Computes the pieces of cells of which none is the whole sphere; targets that are have none.
+PieceRows overlay_of_bordered(const CellSetData& source, const CellSetData& target,
+                              bool has_moments, const Execution& execution) {
   const std::size_t num_targets = target.areas().size();
-  if (target.whole() != no_index) return whole_cells(source, target.whole(), num_targets);
-  if (source.whole() != no_index) {
-    return transposed(whole_cells(target, source.whole(), num_sources), num_targets);
-  }
   if (target.grid() != nullptr && source.grid() != nullptr) {
     return overlay::GridOverlay(*target.grid(), *source.grid())
         .pieces(0, target.grid()->num_cells(), has_moments);
@@ -84,12 +97,35 @@ PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool 
     return pieces(target.subdivision(), target.sizes(), source.subdivision(), has_moments,
                   execution);
   }
-  if (target.covers_sphere()) {
+  if (target.covers_sphere() && target.all_whole().empty()) {
     return transposed(
         pieces(source.subdivision(), source.sizes(), target.subdivision(), has_moments, execution),
         num_targets);
   }
   return overlay_of_parts(source, target, has_moments, execution);
+}
+
+// Computes the pieces of two sets of cells. Rows are targets, columns are sources.
+PieceRows overlay_of(const CellSetData& source, const CellSetData& target, bool has_moments,
+                     const Execution& execution) {
+  const std::size_t num_sources = source.areas().size();
+  const std::size_t num_targets = target.areas().size();
+  if (source.whole() != no_index) {
+    return transposed(
+        with_whole_cells(empty_rows(num_sources), source.all_whole(), target, has_moments),
+        num_targets);
+  }
+  if (target.whole() == no_index) {
+    return overlay_of_bordered(source, target, has_moments, execution);
+  }
+  // Targets that overlap may be there beside the whole sphere, each for itself.
+  const bool are_all_empty =
+      std::ranges::all_of(target.subdivision().shapes,
+                          [](overlay::Shape shape) { return shape == overlay::Shape::empty; });
+  return with_whole_cells(are_all_empty
+                              ? empty_rows(num_targets)
+                              : overlay_of_bordered(source, target, has_moments, execution),
+                          target.all_whole(), source, has_moments);
 }
 
 // Removes the pieces of masked cells, and the sums of rows and columns, which are not valid any

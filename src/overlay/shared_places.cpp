@@ -88,10 +88,7 @@ OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOv
                         const char* what, const Execution& execution) {
   const std::vector<std::int32_t>& mask = facts.mask;
   // Each cell has its own pieces then, whatever the others have.
-  if (rule == CellOverlap::each && cells.all_whole().empty() &&
-      cells.cells_crossing_themselves().empty()) {
-    return {&cells};
-  }
+  if (rule == CellOverlap::each && cells.cells_crossing_themselves().empty()) return {&cells};
   const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);

@@ -22,6 +22,7 @@
 #include "rondel/geometries.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
+#include "rondel/remap.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -59,6 +60,27 @@ void test_cells(const CellTable& table) {
     require(clip(CellSet::polygons(clipped), CellSet::polygons(cells)).num_cells() == sites.size(),
             "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
+  }
+}
+
+// In a grid of meridians and parallels each cell has the area between its straight sides, which differs from that between
+// arcs by a small share. Cells whose sides are geodesic may cross themselves.
+void test_in_grid(const CellTable& table) {
+  const CellSet cells = CellSet::polygons(table.cells, table.sides);
+  const bool is_straight = cells.sides().size() > 0;
+  require(!is_straight || cells.sides().size() == cells.num_cells(), "a row for each cell");
+  try {
+    const CellSet grid = CellSet::lonlat_grid(GlobalGrid{36, 18});
+    const Remap found = remap(grid, cells, {.overlap = CellOverlap::each});
+    for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+      const double area = found.target_areas[i];
+      require(!(area > 1e-9) || std::abs(found.target_fractions[i] - 1) < 1e-6, "parts add up");
+      require(!is_straight || cells.sides()[i].empty() ||
+                  std::abs(area - cells.areas()[i]) < 0.01 * area + 1e-9,
+              "arcs are near to lines");
+    }
+  } catch (const InvalidInput&) {
+    require(!is_straight || !table.facts.faults.empty(), "polygons in the plane have parts");
   }
 }
 
@@ -217,6 +239,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const PolygonEdges edges : {PolygonEdges::lonlat, PolygonEdges::geodesic}) {
     const PolygonOptions options = {.edges = edges, .tolerance_deg = 1};
     fuzz::test_reader(path, [&] { fuzz::test_cells(read_polygons(path, options)); });
+    fuzz::test_reader(path, [&] { fuzz::test_in_grid(read_polygons(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_together(folder, path, options); });
     fuzz::test_reader(path, [&] { fuzz::test_overlaps(path, options); });

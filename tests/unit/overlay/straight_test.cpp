@@ -224,6 +224,7 @@ TEST(overlay_straight, pieces_do_not_depend_on_other_polygons) {
   std::vector<Ring> rings = {box_ring(0, 45, 4, 45.1), box_ring(0.5, 44.95, 2, 45.1),
                              box_ring(2, 45.09, 3, 45.2), box_ring(1, 44, 3, 46)};
   for (int k = 0; k < 6; ++k) rings.push_back(star(random, {2, 45}, 1 + k));
+  rings.insert(rings.begin() + 2, box_ring(-180, -90, 180, 90));  // the whole sphere
   const CellSet grid = CellSet::lonlat_grid(regular_grid(720, 360));
   const Remap all = remap(grid, features_of(rings), {.overlap = CellOverlap::each});
   for (std::size_t z = 0; z < rings.size(); ++z) {
@@ -235,6 +236,12 @@ TEST(overlay_straight, pieces_do_not_depend_on_other_polygons) {
       EXPECT_EQ(all.pieces.values[begin + k], alone.pieces.values[k]);
       EXPECT_NEAR(all.areas[begin + k], alone.areas[k], 1e-17) << z << ' ' << k;
     }
+  }
+  EXPECT_EQ(all.pieces.offsets[3] - all.pieces.offsets[2], 720U * 360U);
+  const auto mesh = CellSet::voronoi(triangulation_of("uniform", 100, 5));
+  const Remap in_mesh = remap(mesh, features_of(rings), {.overlap = CellOverlap::each});
+  for (std::size_t z = 0; z < rings.size(); ++z) {
+    EXPECT_NEAR(in_mesh.target_fractions[z], 1, 1e-9) << z;
   }
 }
 
