@@ -29,6 +29,7 @@ struct VariableHeader {
   std::vector<std::string> dimensions;                     ///< the last one changes fastest
   std::vector<std::uint64_t> shape;                        ///< the lengths of the dimensions
   std::vector<std::pair<std::string, std::string>> texts;  ///< the attributes that are texts
+  bool is_integer = false;                                 ///< true for numbers that are integers
 
   /// Returns the text of an attribute, or an empty text if there is no such attribute.
   [[nodiscard]] RONDEL_API std::string text(std::string_view attribute) const;
@@ -98,6 +99,13 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
 /// \throws InvalidInput if there is no such variable
 RONDEL_API std::vector<CoordinatePair> coordinates_of(std::span<const VariableHeader> variables,
                                                       std::size_t variable);
+/// Does the same for several variables, in a time that grows with their number, and not with its
+/// square.
+/// \param wanted  the indices of the variables
+/// \returns the pairs of each
+/// \throws InvalidInput if there is no such variable
+RONDEL_API std::vector<std::vector<CoordinatePair>> coordinates_of(
+    std::span<const VariableHeader> variables, std::span<const std::size_t> wanted);
 
 /// Tells which variables describe a mesh or a grid and are no fields: numbers of neighbors and
 /// corners, coordinates of corners, edges and centers, and masks. It knows MPAS, ICON, UGRID (a
@@ -119,6 +127,77 @@ RONDEL_API std::vector<bool> are_measures_of_cells(std::span<const VariableHeade
 /// that they are on a mesh.
 /// \returns true or false for each variable
 RONDEL_API std::vector<bool> are_at_places(std::span<const VariableHeader> variables);
+
+/// How surely a variable has the numbers of those pixels of HEALPix that data are at.
+enum class PixelList {
+  none,     ///< it is something else
+  unclear,  ///< integers without units or a meaning that is known
+  named,    ///< its name says so, or it is the coordinate of its dimension
+  stated    ///< its standard_name is `healpix_index` (CF 1.13)
+};
+
+/// Tells whether a variable may have the numbers of pixels, by its header:
+///
+/// 1. Such a variable has one dimension and numbers without units; another standard_name than
+///    `healpix_index`, and flags, say that it has something else.
+/// 2. Names that tools give it are `cell`, `pixel`, `pix`, `ipix`, `healpix` and `hpx`, in the plural
+///    or with `id`, `index` or `number`, in any case of letters and with any underscores; a word
+///    `ring` or `nest` in a name of integers says so, too, if it is the order of the pixels, and that
+///    they are none if it is the other one.
+/// \param is_ring  whether pixels are numbered ring by ring, and not nested
+RONDEL_API PixelList pixel_list_of(const VariableHeader& variable, bool is_ring);
+
+/// Pixels of HEALPix that data are at.
+struct PixelQuery {
+  std::string grid;              ///< the name of the grid: `healpix:3:ring`
+  std::uint64_t num_pixels = 0;  ///< those of the whole grid
+  std::string mapping;           ///< the name of the variable that is the grid mapping, or empty
+  /// Reads numbers of a variable from one on, with NaN for missing ones.
+  std::function<void(std::size_t variable, std::uint64_t begin, std::span<double> out)> read;
+};
+
+/// The numbers of pixels that a variable has.
+struct NumberedPixels {
+  std::size_t variable = 0;
+  std::vector<Index> numbers;  ///< none if they are those of all pixels in order
+};
+
+/// Finds the variable with the numbers of the pixels that data are at.
+///
+/// 1. A variable that is stated to have them comes first, then one that is named so, along a dimension
+///    of the data; then the coordinate of the dimension of pixels. This is as long as the grid has
+///    pixels, or else the only one that all data have and that is not a time or another axis.
+/// 2. The numbers of pixels differ. Those that count from another number than 0 in order are in the
+///    order of the pixels.
+/// 3. Where the data have no longitudes and latitudes and no other list is found, integers that are
+///    unclear and might be numbers of pixels in another order are an error.
+///
+/// \returns nothing if no variable has them: the values are then at all pixels in order, or elsewhere
+/// \throws InvalidInput for numbers of other pixels or of a pixel twice in a variable that is stated
+///         or named, with its name and the number, and for unclear variables
+RONDEL_API std::optional<NumberedPixels> numbered_pixels(std::span<const VariableHeader> variables,
+                                                         const PixelQuery& query);
+
+/// What a file says of a variable that is to be a component of vectors.
+struct VectorComponent {
+  std::string name;
+  std::string standard_name;  ///< may be empty
+  std::string units;          ///< may be empty
+  bool has_flags = false;     ///< whether values stand for categories (CF 3.5)
+};
+
+/// Returns why two variables are not the eastward and the northward components of the same vectors, by
+/// what their file says of them; an empty text if it says nothing against it.
+///
+/// 1. A standard_name says it that has no direction, another one, or that of a grid (`grid_eastward_wind`;
+///    `x_wind`, unless the grid is along longitudes and latitudes); `eastward`, `zonal` and `u` are
+///    directions to the east. A text without an underscore, as `unknown`, is no standard_name.
+/// 2. Both standard_names differ in the direction alone.
+/// 3. Both have the same units, in any spelling of their powers: `m s-1`, `m/s`, `m s**-1`.
+/// 4. Neither has flags.
+/// \param is_along_axes  whether the variables are on a grid along longitudes and latitudes
+RONDEL_API std::string lack_of_vectors(const VectorComponent& east, const VectorComponent& north,
+                                       bool is_along_axes);
 
 /// True for an attribute that belongs to the places of a variable or a file, or to how numbers are
 /// stored, so that values at other places do not have it: `coordinates`, `grid_mapping`, `mesh`,
@@ -210,6 +289,15 @@ RONDEL_API bool is_name_of_time(std::string_view dimension);
 ///         than three halves of the cell's width, and a latitude or bound beyond a pole (its index)
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);
+
+/// How far latitudes of files may be beyond a pole, which rounding to single precision explains: pi / 2
+/// is then 90.0000025 degrees, and the number after 90 is 90.0000076.
+inline constexpr double max_beyond_pole_deg = 1e-5;
+
+/// Replaces latitudes in degrees that are at most `max_beyond_pole_deg` beyond a pole by that of the
+/// pole.
+/// \returns the index of the first latitude that is farther beyond, or the number of latitudes
+RONDEL_API std::size_t clamp_at_poles(std::span<double> lat_deg);
 
 /// An attribute that decides which numbers of a variable are missing and how they are unpacked:
 /// `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`,

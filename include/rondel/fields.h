@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -140,6 +141,9 @@ struct FieldExtras {
   bool has_others = false;
   /// Whether FieldSet::points and positions have the places. They take 40 bytes for each.
   bool has_positions = true;
+  /// Variables that are coordinates of the points, and no fields unless they are named, although no
+  /// convention says so.
+  std::vector<std::string> coordinates = {};
 };
 
 /// A room for FieldFile::keep_chunks() in bytes, in which chunks of 73 times on 0.25 degrees fit.
@@ -162,6 +166,12 @@ class FieldFile {
 
   /// Returns the result of read_fields() without the values of the arrays.
   [[nodiscard]] RONDEL_API const FieldSet& fields() const;
+
+  /// Returns the index of the array that a name means, as the names of read_fields() do: the variable
+  /// of a group of netCDF is `group/name`, `/group/name`, or `name` where no other group has one.
+  /// \returns nothing if it is none of the arrays
+  /// \throws FileError if several groups have one
+  [[nodiscard]] RONDEL_API std::optional<std::size_t> find(const std::string& name) const;
 
   /// Reads the values of consecutive points of one field, as many as `out` has room for.
   /// \param first_point  where they begin; values of netCDF are read from the file if they are

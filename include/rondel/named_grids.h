@@ -47,11 +47,6 @@ RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 /// for other attributes.
 RONDEL_API std::string lack_of_mapping(const GridMapping& attributes);
 
-/// True if a variable may have the numbers of those pixels of HEALPix that data are at: by its
-/// standard_name `healpix_index` (CF 1.13), or, without a standard_name, by a name that tools give
-/// it: `cell`, `cell_ids`, `healpix_index`, `healpix`, `hpx`, `ipix`, `pix` or `pixel`.
-RONDEL_API bool may_number_pixels(std::string_view name, std::string_view standard_name);
-
 /// A grid that is given by its name; all cover the sphere but `tripolar:`, which has no cells in the
 /// Antarctic:
 ///

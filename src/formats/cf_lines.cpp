@@ -248,19 +248,10 @@ void require_near_cells(std::span<const double> values, std::span<const double> 
   }
 }
 
-// Replaces latitudes slightly beyond a pole: pi / 2 in single precision is 90.0000025 degrees.
-void end_before_poles(std::vector<double>& lines) {
-  constexpr double rounding = 1e-5;
-  for (double& line : lines) {
-    if (std::abs(line) <= 90 + rounding) line = std::clamp(line, -90.0, 90.0);
-  }
-}
-
 // Throws InvalidInput for a latitude beyond a pole, up to rounding.
 void require_latitudes(std::span<const double> values, const std::string& name) {
-  constexpr double rounding = 1e-5;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::abs(values[i]) <= 90 + rounding) continue;
+    if (std::abs(values[i]) <= 90 + max_beyond_pole_deg) continue;
     throw InvalidInput(name + " " + system::shortest_text(values[i]) + " is beyond a pole", i);
   }
 }
@@ -282,6 +273,19 @@ void formats::require_order(std::span<const double> values, bool is_longitude,
   }
 }
 
+std::size_t clamp_at_poles(std::span<double> lat_deg) {
+  std::size_t first = lat_deg.size();
+  for (std::size_t i = 0; i < lat_deg.size(); ++i) {
+    if (!(std::abs(lat_deg[i]) > 90)) continue;
+    if (std::abs(lat_deg[i]) <= 90 + max_beyond_pole_deg) {
+      lat_deg[i] = std::copysign(90.0, lat_deg[i]);
+    } else {
+      first = std::min(first, i);
+    }
+  }
+  return first;
+}
+
 std::vector<double> axis_lines(std::span<const double> values, std::span<const double> bounds,
                                bool is_longitude) {
   const system::ArithmeticScope arithmetic;
@@ -291,6 +295,7 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
   formats::require_order(values, is_longitude, name);
   std::vector<double> unrolled(values.begin(), values.end());
   if (is_longitude && !values.empty()) unroll(unrolled, goes_west(unrolled) ? -1 : 1);
+  if (!is_longitude) (void)clamp_at_poles(unrolled);
   std::vector<double> lines;
   const std::size_t n = values.size();
   if (!bounds.empty()) {
@@ -304,8 +309,11 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
                       : joined(sides_of_bounds(bounds, is_longitude), is_longitude);
     require_near_cells(values, lines, name);
   } else {
-    if (n < 2) {
-      throw InvalidInput("one " + name + " without bounds has no width", 0);
+    if (n == 0) throw InvalidInput("there are no " + name + "s", 0);
+    if (n == 1) {
+      throw InvalidInput(
+          "one " + name + " without bounds, " + system::shortest_text(values[0]) + ", has no width",
+          0);
     }
     if (is_longitude) require_one_turn_of_axis(values, unrolled, name);
     lines = halves(unrolled);
@@ -314,7 +322,7 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
   if (!is_longitude) {
     require_latitudes(values, name);
     require_latitudes(lines, bounds.empty() ? "side of cells at latitude" : "bound of latitudes");
-    end_before_poles(lines);
+    (void)clamp_at_poles(lines);
   }
   if (is_longitude && lines.size() > 2) close_circle(lines, unrolled.front(), unrolled.back());
   if (is_longitude && !bounds.empty()) require_one_turn_of_bounds(bounds, lines);

@@ -157,6 +157,26 @@ bool is_name_of_bounds(std::string_view name, std::string_view coordinate) {
          std::ranges::find(bounds_endings, name.substr(coordinate.size())) != bounds_endings.end();
 }
 
+std::vector<std::string> usual_names_of_bounds(std::string_view coordinate) {
+  std::vector<std::string> names;
+  for (const std::string_view ending : bounds_endings) {
+    names.push_back(std::string(coordinate) += ending);
+    // What begins as bounds do is named by its beginning.
+    if (!is_name_of_bounds(names.back(), coordinate)) names.pop_back();
+  }
+  names.push_back(std::string(bounds_beginning) += coordinate);
+  return names;
+}
+
+std::vector<std::string_view> usual_coordinates_of_bounds(std::string_view name) {
+  if (name.starts_with(bounds_beginning)) return {name.substr(bounds_beginning.size())};
+  std::vector<std::string_view> coordinates;
+  for (const std::string_view ending : bounds_endings) {
+    if (name.ends_with(ending)) coordinates.push_back(name.substr(0, name.size() - ending.size()));
+  }
+  return coordinates;
+}
+
 std::string text_of_others(std::vector<std::string> grids) {
   std::ranges::sort(grids);
   grids.erase(std::unique(grids.begin(), grids.end()), grids.end());

@@ -60,6 +60,11 @@ bool is_in_radians(std::string_view name);
 bool is_connectivity(const VariableHeader& variable);
 // True if `name` is a usual name of the bounds of `coordinate`.
 bool is_name_of_bounds(std::string_view name, std::string_view coordinate);
+// Returns the usual names of the bounds of `coordinate`.
+std::vector<std::string> usual_names_of_bounds(std::string_view coordinate);
+// Returns the names of the coordinates of which `name` is a usual name of the bounds; they are parts
+// of `name`.
+std::vector<std::string_view> usual_coordinates_of_bounds(std::string_view name);
 // Returns the names of the grids of a file that are not read, for messages: each once, the first three
 // by the alphabet.
 std::string text_of_others(std::vector<std::string> grids);

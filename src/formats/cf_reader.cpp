@@ -22,6 +22,8 @@ VariableHeader header_of(const io::NetcdfReader& file, const io::VariableInFile&
   VariableHeader header;
   header.name = variable.name;
   header.is_number = variable.type != io::NetcdfType::text;
+  header.is_integer = header.is_number && variable.type != io::NetcdfType::float32 &&
+                      variable.type != io::NetcdfType::float64;
   for (const std::size_t dimension : variable.dimensions) {
     header.dimensions.push_back(file.dimensions()[dimension].name);
   }

@@ -18,6 +18,7 @@
 
 #include "formats/cf_names.h"
 #include "formats/netcdf_cells.h"
+#include "formats/variable_index.h"
 #include "formats/weight_formats.h"
 #include "rondel/named_grids.h"
 
@@ -45,12 +46,12 @@ class GridParts {
  public:
   // Collects the variables that a topology of UGRID names, such as those of
   // `face_node_connectivity` and `node_coordinates`.
-  explicit GridParts(std::span<const VariableHeader> variables) : variables_(variables) {
+  explicit GridParts(std::span<const VariableHeader> variables) : index_(variables) {
     for (const VariableHeader& variable : variables) {
       if (!is_topology(variable)) continue;
       for (const auto& [attribute, text] : variable.texts) {
         if (!attribute.ends_with("_connectivity") && !attribute.ends_with("_coordinates")) continue;
-        std::ranges::move(formats::words_of(text), std::back_inserter(named_));
+        for (std::string& word : formats::words_of(text)) named_.insert(std::move(word));
       }
     }
   }
@@ -58,9 +59,9 @@ class GridParts {
   // True if the variable belongs to the description of a grid or mesh.
   [[nodiscard]] bool has(const VariableHeader& variable) const {
     const std::string& name = variable.name;
-    return is_topology(variable) || formats::is_connectivity(variable) ||
-           std::ranges::count(named_, name) != 0 || is_of_list(name) || is_of_mpas(name) ||
-           is_of_nemo(name) || is_of_oasis(name) || is_of_exodus(name);
+    return is_topology(variable) || formats::is_connectivity(variable) || named_.contains(name) ||
+           is_of_list(name) || is_of_mpas(name) || is_of_nemo(name) || is_of_oasis(name) ||
+           is_of_exodus(name);
   }
 
  private:
@@ -71,9 +72,7 @@ class GridParts {
            variable.text("standard_name") == "mesh_topology";
   }
   // True if the file has a variable of this name.
-  [[nodiscard]] bool is_there(std::string_view name) const {
-    return std::ranges::find(variables_, name, &VariableHeader::name) != variables_.end();
-  }
+  [[nodiscard]] bool is_there(std::string_view name) const { return index_.has(name); }
 
   // True for a name of SCRIP, ESMF or ICON, in a file of that convention.
   [[nodiscard]] bool is_of_list(std::string_view name) const {
@@ -123,8 +122,8 @@ class GridParts {
         [&](std::string_view beginning) { return name.starts_with(beginning); });
   }
 
-  std::span<const VariableHeader> variables_;
-  std::vector<std::string> named_;  // by a topology of UGRID
+  formats::VariableIndex index_;
+  std::set<std::string> named_;  // by a topology of UGRID
 };
 
 // True for a name of areas of cells: in MPAS, ICON, CMIP, SCRIP, ESMF, POP and CICE; or for `area`, as in

@@ -47,8 +47,10 @@ std::string name_of_variable(const Column& column) {
 
 }  // namespace
 
-std::string take_name(const std::string& name, std::set<std::string>& taken) {
-  return *taken.insert(free_names({name}, taken).front()).first;
+// Files have thousands of names, which free_names() would copy for each of them.
+std::string take_name(std::string name, std::set<std::string>& taken) {
+  while (!taken.insert(name).second) name += '_';
+  return name;
 }
 
 double number_in_cell(std::string_view cell, const std::string& name) {

@@ -25,8 +25,9 @@ namespace rondel::formats {
 // Returns a valid netCDF name: characters that netCDF does not accept become underscores.
 std::string netcdf_name(std::string name);
 
-// Returns a name of free_names(), which is then taken.
-std::string take_name(const std::string& name, std::set<std::string>& taken);
+// Returns the name, with as many underscores behind it as make it differ from those that are taken,
+// as free_names() does; it is then taken, too.
+std::string take_name(std::string name, std::set<std::string>& taken);
 
 // Returns the number in a cell; NaN if it is empty or says that it is missing. Throws BadValue.
 double number_in_cell(std::string_view cell, const std::string& name);

@@ -117,6 +117,16 @@ const FieldSet& FieldFile::fields() const {
   return content_->slices ? content_->slices->fields() : content_->fields;
 }
 
+std::optional<std::size_t> FieldFile::find(const std::string& name) const {
+  if (content_->slices) {
+    return io::in_file(content_->bytes.name(), [&] { return content_->slices->find(name); });
+  }
+  const std::vector<FieldArray>& arrays = content_->fields.arrays;
+  const auto found = std::ranges::find(arrays, name, &FieldArray::name);
+  if (found == arrays.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - arrays.begin());
+}
+
 void FieldFile::keep_chunks(std::size_t bytes) const {
   if (content_->slices) content_->slices->keep_chunks(bytes);
 }

@@ -35,7 +35,9 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       num_points_(wanted.num_points),
       shape_(wanted.shape.begin(), wanted.shape.end()),
       wanted_(wanted.places),
+      given_coordinates_(wanted.extras.coordinates),
       headers_(headers_of(file)),
+      coordinates_(headers_),
       parts_of_grids_(parts_of_grids(headers_)),
       are_at_places_(are_at_places(headers_)),
       are_measures_(are_measures_of_cells(headers_)) {
@@ -127,7 +129,7 @@ std::vector<FieldDimensionFinder::PossiblePlaces> FieldDimensionFinder::candidat
   int rank = 0;
   why_not_.clear();
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
-  for (const CoordinatePair& pair : coordinates_of(headers_, index)) {
+  for (const CoordinatePair& pair : coordinates_.pairs_of(index)) {
     // The pairs come in the order of their ranks, and a worse one is no choice beside a better one.
     if (!found.empty() && pair.rank < rank) break;
     const io::VariableInFile& lon = file_.variables()[pair.lon];
@@ -225,13 +227,13 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
+  if (std::ranges::count(given_coordinates_, header.name) != 0) return true;
   if (is_named_like_degrees(header) || parts_of_grids_[index] || are_measures_[index]) return true;
   if (coordinate_evidence(header, CoordinateKind::lon) > 0 ||
       coordinate_evidence(header, CoordinateKind::lat) > 0) {
     return true;
   }
-  return std::ranges::any_of(
-      headers_, [&](const VariableHeader& other) { return other.text("bounds") == header.name; });
+  return coordinates_.are_named_bounds(header.name);
 }
 
 bool FieldDimensionFinder::is_at_places(const io::VariableInFile& variable) const {
@@ -254,11 +256,7 @@ bool FieldDimensionFinder::is_lost(const io::VariableInFile& variable) const {
   if (!header.is_number) {
     return header.shape.size() == 1 && header.dimensions[0] == header.name;
   }
-  return std::ranges::any_of(headers_, [&](const VariableHeader& other) {
-    return other.text("bounds") == header.name &&
-           coordinate_evidence(other, CoordinateKind::lon) == 0 &&
-           coordinate_evidence(other, CoordinateKind::lat) == 0;
-  });
+  return coordinates_.are_bounds_of_others(header.name);
 }
 
 }  // namespace rondel::formats

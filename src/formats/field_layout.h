@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "formats/cf_names.h"
+#include "formats/coordinate_search.h"
 #include "formats/field_formats.h"
 #include "formats/place_list.h"
 #include "io/bad_value.h"
@@ -199,8 +200,10 @@ class FieldDimensionFinder {
   // The lengths of the points' grid; empty if they are not known.
   std::vector<std::uint64_t> shape_;
   WantedPlaces wanted_;
+  std::vector<std::string> given_coordinates_;
   PlaceList wanted_places_;
   std::vector<VariableHeader> headers_;
+  CoordinateSearch coordinates_;
   // The headers are by variable of the file, and so are these: true for parts of grids and meshes.
   std::vector<bool> parts_of_grids_;
   std::vector<bool> are_at_places_;

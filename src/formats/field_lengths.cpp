@@ -97,7 +97,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
 const FieldDimensionFinder::SetsOfPlaces& FieldDimensionFinder::sets_of_places() {
   if (sets_of_places_) return *sets_of_places_;
   sets_of_places_.emplace();
-  for (const CoordinatePair& pair : find_coordinates(headers_, {})) {
+  for (const CoordinatePair& pair : coordinates_.pairs()) {
     const io::VariableInFile& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;

@@ -210,6 +210,21 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   if (!are_chosen) fields_.remark_on_grids = layouts_.remark_on_grids();
 }
 
+// The name of a variable of a group is written with an underscore, which names it, too.
+std::optional<std::size_t> FieldSlices::find(const std::string& name) const {
+  const std::string full = io::full_name(file_.variables(), name);
+  for (std::size_t a = 0; a < sources_.size(); ++a) {
+    const bool is_whole = fields_.arrays[a].name == written_name(sources_[a].variable->name);
+    if (is_whole && sources_[a].variable->name == full) return a;
+  }
+  const auto found = std::ranges::find(fields_.arrays, name, &FieldArray::name);
+  if (found != fields_.arrays.end()) {
+    return static_cast<std::size_t>(found - fields_.arrays.begin());
+  }
+  io::require_one_group(file_.variables(), name);
+  return std::nullopt;
+}
+
 // Two names may mean one field, such as "tas[0]" and "tas_2001-07-15".
 void FieldSlices::require_distinct(std::span<const std::string> names) const {
   for (std::size_t k = 1; k < names.size(); ++k) {
@@ -295,6 +310,11 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
     if (fields_.num_points == 0) fields_.num_points = layout.places.size();
   }
   layout.places = {};
+  for (const std::size_t d : layout.points) {
+    if (variable.shape[d] > 1) dimensions_of_points_.insert(variable.dimensions[d]);
+  }
+  for (const std::size_t d : layout.leading) leading_dimensions_.insert(variable.dimensions[d]);
+  dimensions_of_fields_.insert(variable.dimensions.begin(), variable.dimensions.end());
   FieldBlocks blocks(file_, variable, layout, max_per_block_);
   sources_.push_back(
       {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
@@ -386,13 +406,10 @@ void FieldSlices::keep_others(std::span<const ApartVariable> apart) {
 }
 
 bool FieldSlices::depends_on_place(const io::VariableInFile& variable) const {
-  if (layouts_.is_at_places(variable)) return true;
-  return std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
-    return std::ranges::any_of(source.layout.points, [&](std::size_t d) {
-      return source.variable->shape[d] > 1 &&
-             std::ranges::count(variable.dimensions, source.variable->dimensions[d]) != 0;
-    });
-  });
+  return layouts_.is_at_places(variable) ||
+         std::ranges::any_of(variable.dimensions, [&](std::size_t dimension) {
+           return dimensions_of_points_.contains(dimension);
+         });
 }
 
 // Fields have the dimension, too, or it has an axis, or it is that of the two bounds of a cell.
@@ -401,9 +418,7 @@ std::string FieldSlices::unknown_dimension(const io::VariableInFile& variable) c
   for (std::size_t d = 0; d + (has_characters ? 1 : 0) < variable.shape.size(); ++d) {
     const std::size_t dimension = variable.dimensions[d];
     const std::string& name = file_.dimensions()[dimension].name;
-    const bool is_of_fields = std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
-      return std::ranges::count(source.variable->dimensions, dimension) != 0;
-    });
+    const bool is_of_fields = dimensions_of_fields_.contains(dimension);
     if (variable.shape[d] > 2 && !is_of_fields && file_.find(name) == nullptr) return name;
   }
   return {};
@@ -465,12 +480,8 @@ bool FieldSlices::keep_text(const io::VariableInFile& variable) {
 }
 
 bool FieldSlices::is_label(const io::VariableInFile& variable) const {
-  if (variable.type != io::NetcdfType::text || variable.dimensions.empty()) return false;
-  return std::ranges::any_of(sources_, [&](const SlicedVariable& source) {
-    return std::ranges::any_of(source.layout.leading, [&](std::size_t d) {
-      return source.variable->dimensions[d] == variable.dimensions.front();
-    });
-  });
+  return variable.type == io::NetcdfType::text && !variable.dimensions.empty() &&
+         leading_dimensions_.contains(variable.dimensions.front());
 }
 
 void FieldSlices::keep_named() {

@@ -11,6 +11,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,6 +35,8 @@ class FieldSlices {
 
   // Returns the arrays without their values; only coordinates along axes have values here.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
+  // Returns the array that a name means, like FieldFile::find().
+  [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
   // Sets how many bytes of chunks are kept for each array, like FieldFile::keep_chunks().
   void keep_chunks(std::size_t bytes);
   // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
@@ -111,7 +115,12 @@ class FieldSlices {
   FieldDimensionFinder layouts_;
   FieldSet fields_;
   std::vector<SlicedVariable> sources_;  // by array
-  std::size_t bytes_kept_ = 0;           // of chunks, for each array
+  // Dimensions of the sources, by their numbers in the file: those of points with a length above 1,
+  // the leading ones, and all.
+  std::set<std::size_t> dimensions_of_points_;
+  std::set<std::size_t> leading_dimensions_;
+  std::set<std::size_t> dimensions_of_fields_;
+  std::size_t bytes_kept_ = 0;  // of chunks, for each array
   // The values of the last block of which a part was read.
   mutable std::vector<double> block_;
   mutable const SlicedVariable* source_of_block_ = nullptr;

@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "formats/cf_values.h"
 #include "formats/field_columns.h"
@@ -321,8 +322,9 @@ class NetcdfSink : public FieldSink {
       return known == own_names_.end() ? std::string() : known->second;
     };
     const auto dimension_here = [&](const std::string& name) {
-      const auto known = std::ranges::find(known_, name, &LeadingDimension::name);
-      return known == known_.end() ? std::string() : known->own_name;
+      const auto known = known_.lower_bound({name, 0});
+      const bool is_there = known != known_.end() && known->first.first == name;
+      return is_there ? known->second.own_name : std::string();
     };
     std::vector<io::NetcdfAttribute> attributes;
     for (io::NetcdfAttribute& attribute : with_attributes(array)) {
@@ -348,22 +350,19 @@ class NetcdfSink : public FieldSink {
 
   // A dimension of the file that is not one of the points.
   struct LeadingDimension {
-    std::string name;
-    std::uint64_t length;
-    std::string own_name;  // differs from `name` where that is taken
-    std::size_t number;
+    std::string own_name;  // differs from its name in the source where that is taken
+    std::size_t number = 0;
   };
 
   // Returns the dimension of this name and length; two arrays may have dimensions of one name and
   // different lengths.
   const LeadingDimension& dimension(const std::string& name, std::uint64_t length) {
-    for (const LeadingDimension& known : known_) {
-      if (known.name == name && known.length == length) return known;
-    }
-    const std::string own_name = take_name(netcdf_name(name), taken_);
+    const auto [at, is_new] = known_.try_emplace({name, length});
+    if (!is_new) return at->second;
+    at->second.own_name = take_name(netcdf_name(name), taken_);
     const bool is_unlimited = std::ranges::count(unlimited_, name) != 0;
-    known_.push_back({name, length, own_name, out_.add_dimension(own_name, length, is_unlimited)});
-    return known_.back();
+    at->second.number = out_.add_dimension(at->second.own_name, length, is_unlimited);
+    return at->second;
   }
 
   // The values of an array that are still to come.
@@ -380,7 +379,8 @@ class NetcdfSink : public FieldSink {
   std::set<std::string> taken_;
   // The names that axes, arrays and others get, by the names that they have in the set.
   std::map<std::string, std::string, std::less<>> own_names_;
-  std::vector<LeadingDimension> known_;
+  // By their names and lengths in the source.
+  std::map<std::pair<std::string, std::uint64_t>, LeadingDimension> known_;
   std::vector<std::string> unlimited_;  // names of dimensions that may grow
 };
 

@@ -105,84 +105,14 @@ class PlaceSamples {
   std::array<double, 2> units_{};
 };
 
-// Collects the numbers of cells that a file has, from the first one that is not in order on.
-class NumberCollector {
- public:
-  explicit NumberCollector(std::size_t num_cells, std::size_t count)
-      : num_cells_(num_cells), is_in_order_(count == num_cells) {}
-
-  // Adds a number. Returns false if no cell has it.
-  bool add(double number) {
-    if (!(number >= 0) || number >= static_cast<double>(num_cells_) || number != std::floor(number))
-      return false;
-    if (is_in_order_ && number != static_cast<double>(count_)) {
-      is_in_order_ = false;
-      numbers_.resize(count_);
-      std::iota(numbers_.begin(), numbers_.end(), Index{0});
-    }
-    if (!is_in_order_) numbers_.push_back(static_cast<Index>(number));
-    ++count_;
-    return true;
-  }
-  // Returns the numbers, none if they are those of all cells in order.
-  std::vector<Index> take() { return std::move(numbers_); }
-  // Returns a number that is there twice, or no_index.
-  [[nodiscard]] Index repeated() const {
-    std::vector<bool> is_there(is_in_order_ ? 0 : num_cells_);
-    for (const Index number : numbers_) {
-      if (is_there[number]) return number;
-      is_there[number] = true;
-    }
-    return no_index;
-  }
-
- private:
-  std::size_t num_cells_;
-  std::size_t count_ = 0;
-  bool is_in_order_;
-  std::vector<Index> numbers_;
-};
-
-// Reads the numbers of pixels that a variable has, as GridOfFile has them. Returns nothing if they
-// are others, or throws BadValue, if its standard_name says that they are those of pixels.
-std::optional<std::vector<Index>> numbers_in(const io::NetcdfReader& reader,
-                                             const io::VariableInFile& variable,
-                                             const NamedGrid& grid) {
-  constexpr std::size_t at_once = std::size_t{1} << 16;
-  NumberCollector numbers(grid.num_cells(), variable.num_values);
-  const ValueRules rules(variable);
-  std::string why;
-  std::vector<double> values;
-  for (std::uint64_t begin = 0; begin < variable.num_values && why.empty(); begin += at_once) {
-    values.resize(std::min<std::uint64_t>(at_once, variable.num_values - begin));
-    reader.read_numbers(variable, begin, values);
-    rules.apply(values);
-    const auto bad = std::ranges::find_if_not(values, [&](double v) { return numbers.add(v); });
-    if (bad != values.end()) {
-      why = "has the number " + system::shortest_text(*bad) + ", which is not one of the " +
-            std::to_string(grid.num_cells()) + " pixels of " + io::in_quotes(grid.name());
-    }
-  }
-  if (why.empty()) {
-    const Index repeated = numbers.repeated();
-    if (repeated == no_index) return numbers.take();
-    why = "has the number " + std::to_string(repeated) + " of a pixel twice";
-  }
-  if (header_of(reader, variable).text("standard_name").empty()) return std::nullopt;
-  throw io::BadValue("variable " + io::in_quotes(variable.name) + " " + why);
-}
-
-// Returns the numbers of pixels that the file has, as GridOfFile has them, or nothing.
-std::optional<std::vector<Index>> pixels_of(const io::NetcdfReader& reader, const NamedGrid& grid) {
-  for (const io::VariableInFile& variable : reader.variables()) {
-    const VariableHeader header = header_of(reader, variable);
-    if (!header.is_number || variable.shape.size() != 1 || variable.num_values == 0 ||
-        !may_number_pixels(header.name, header.text("standard_name"))) {
-      continue;
-    }
-    if (auto numbers = numbers_in(reader, variable, grid)) return numbers;
-  }
-  return std::nullopt;
+// Returns the numbers of pixels that the file has, or nothing. Throws InvalidInput for others.
+std::optional<NumberedPixels> pixels_of(const io::NetcdfReader& reader, const NamedGrid& grid,
+                                        const std::string& mapping) {
+  const auto read = [&](std::size_t variable, std::uint64_t begin, std::span<double> out) {
+    reader.read_numbers(reader.variables()[variable], begin, out);
+    ValueRules(reader.variables()[variable]).apply(out);
+  };
+  return numbered_pixels(headers_of(reader), {grid.name(), grid.num_cells(), mapping, read});
 }
 
 // Returns the cells whose centers are the places of a file without bounds, or no name.
@@ -198,13 +128,16 @@ GridOfFile cells_at_places(const io::NetcdfReader& reader, const NamedGrid& grid
   for (std::size_t i = 0; i < found.lon.size(); ++i) places.push_back({found.lon[i], found.lat[i]});
   std::vector<Index> numbers = grid.numbers_at(places, max_apart_deg);
   if (numbers.empty()) return {};
-  return {grid.name(), std::move(numbers),
-          found.shape.size() > 1 ? found.shape : std::vector<std::uint64_t>()};
+  return {grid.name(),
+          std::move(numbers),
+          found.shape.size() > 1 ? found.shape : std::vector<std::uint64_t>(),
+          {}};
 }
 
-// Returns the grid that attributes name, if the file has cells of it, or else one without a name.
+// Returns the grid that attributes name, if the file has cells of it, or else one without a name. The
+// attributes are those of the variable `owner`, or of the file.
 GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes,
-                   bool needs_cells) {
+                   const std::string& owner, bool needs_cells) {
   const std::string name = grid_named_by(attributes);
   if (name.empty()) return {};
   const auto has = [&](std::uint64_t length) {
@@ -213,19 +146,20 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
   try {
     const NamedGrid grid(name);
     if (name.starts_with("healpix:")) {
-      if (auto numbers = pixels_of(reader, grid)) {
-        const bool are_all = numbers->empty();
-        const auto center = [&](std::size_t i) { return grid.center(are_all ? i : (*numbers)[i]); };
-        const std::uint64_t count = are_all ? grid.num_cells() : numbers->size();
+      if (auto pixels = pixels_of(reader, grid, owner)) {
+        const std::vector<Index>& numbers = pixels->numbers;
+        const bool are_all = numbers.empty();
+        const auto center = [&](std::size_t i) { return grid.center(are_all ? i : numbers[i]); };
+        const std::uint64_t count = are_all ? grid.num_cells() : numbers.size();
         if (!may_be_at(reader, {count, nullptr, center})) return {};
-        return {name, std::move(*numbers), {}};
+        return {name, numbers, {}, reader.variables()[pixels->variable].name};
       }
     }
     const auto center = [&](std::size_t i) { return grid.center(i); };
     // A file may also have some of the grid's points, with their longitudes and latitudes.
     if ((has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has)) &&
         may_be_at(reader, {grid.num_cells(), grid.axes(), center})) {
-      return {name, {}, {}};
+      return {name, {}, {}, {}};
     }
     return needs_cells ? cells_at_places(reader, grid) : GridOfFile();
   } catch (const InvalidInput& error) {
@@ -290,10 +224,10 @@ GridOfFile grid_of_file(const FileName& file, bool needs_cells) {
   if (!io::is_netcdf(bytes.head())) return {};
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
-    GridOfFile grid = grid_by(reader, mapping_of(reader.attributes()), needs_cells);
+    GridOfFile grid = grid_by(reader, mapping_of(reader.attributes()), {}, needs_cells);
     if (!grid.name.empty()) return grid;
     for (const io::VariableInFile& variable : reader.variables()) {
-      grid = grid_by(reader, mapping_of(variable.attributes), needs_cells);
+      grid = grid_by(reader, mapping_of(variable.attributes), variable.name, needs_cells);
       if (!grid.name.empty()) return grid;
     }
     require_pixels(reader);

@@ -38,6 +38,7 @@ struct GridOfFile {
       {};  // those of its cells that are in the file; empty for all in order
   // The lengths of the dimensions of these cells, empty for one.
   std::vector<std::uint64_t> shape = {};
+  std::string list = {};  // the variable with the numbers, if there is one
 };
 
 // Returns the grid that netCDF says its points are on: if it has the numbers of pixels, or else the

@@ -221,9 +221,7 @@ const io::VariableInFile& require_rank(const io::VariableInFile& variable, std::
 }
 
 bool is_nearly_place(const LonLat& place) {
-  // A latitude of pi / 2 in single precision is 90.0000025 degrees.
-  constexpr double rounding = 1e-5;
-  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
+  return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + max_beyond_pole_deg;
 }
 
 bool is_missing_place(const LonLat& place) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "formats/cf_names.h"
+#include "formats/variable_index.h"
 #include "rondel/conventions.h"
 
 namespace rondel {
@@ -64,7 +65,8 @@ bool is_name_of_places(const std::string& dimension) {
 // Knows the dimensions of places of a file.
 class PlaceDimensions {
  public:
-  explicit PlaceDimensions(std::span<const VariableHeader> variables) : variables_(variables) {
+  explicit PlaceDimensions(std::span<const VariableHeader> variables)
+      : variables_(variables), index_(variables) {
     for (const VariableHeader& variable : variables) {
       if (is_axis_of_places(variable)) found_.insert(variable.dimensions[0]);
       add_topology(variable);
@@ -139,12 +141,13 @@ class PlaceDimensions {
   }
 
   [[nodiscard]] const VariableHeader* find(std::string_view name) const {
-    const auto at = std::ranges::find(variables_, name, &VariableHeader::name);
-    return at == variables_.end() ? nullptr : &*at;
+    const std::size_t at = index_.find(name);
+    return at == formats::VariableIndex::none ? nullptr : &variables_[at];
   }
 
   using CoordinateKind = formats::CoordinateKind;
   std::span<const VariableHeader> variables_;
+  formats::VariableIndex index_;
   std::set<std::string> found_;
 };
 

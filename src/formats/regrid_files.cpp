@@ -212,13 +212,9 @@ class RegridJob {
     report_.extrapolated = ranks_.number_of_first(report_.extrapolated);
   }
 
-  // A component of vectors is no category.
+  // Components of vectors are no categories, which RegridVectors refuses.
   [[nodiscard]] FieldMethod method_of(const FieldArray& array) const {
     if (options_.method) return *options_.method;
-    const auto has_array = [&](const auto& pair) {
-      return pair.first == array.name || pair.second == array.name;
-    };
-    if (std::ranges::any_of(options_.vectors, has_array)) return FieldMethod::conservative;
     return formats::has_flags(array) ? FieldMethod::largest_share : FieldMethod::conservative;
   }
 

@@ -90,11 +90,12 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
     : name_(file.path), file_(file), options_(options) {
   require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
-  const GridOfFile grid = is_name ? GridOfFile{file.path, {}, {}} : grid_of_file(file, has_cells);
+  const GridOfFile grid = is_name ? GridOfFile{file.path} : grid_of_file(file, has_cells);
   if (grid.name.empty()) {
     read_file(file, has_cells, execution, names);
     return;
   }
+  list_ = grid.list;
   try {
     NamedGrid named(grid.name, options.sides);
     if (!grid.numbers.empty()) {

@@ -128,8 +128,12 @@ RemapTile PlaceTiles::tile(std::size_t number, const Execution& execution) const
 Weights PlaceTiles::weights_at(std::span<const LonLat> places, const Execution& execution) const {
   if (method_ == FieldMethod::bilinear) {
     const LonLatAxes& axes = *source_.axes();
-    const Weights weights = bilinear_weights(axes, places, rounding_of(axes));
-    return source_.mask().empty() ? weights : without_columns(weights, source_.mask());
+    try {
+      const Weights weights = bilinear_weights(axes, places, rounding_of(axes));
+      return source_.mask().empty() ? weights : without_columns(weights, source_.mask());
+    } catch (const InvalidInput& error) {
+      throw FileError(source_.name() + ": " + error.what());
+    }
   }
   if (method_ == FieldMethod::native) {
     return native_weights(native_.cells, unit_vectors(places), execution);

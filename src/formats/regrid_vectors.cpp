@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "exact/vector.h"
+#include "formats/regrid_fields.h"
 #include "io/number.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 
 namespace rondel::formats {
@@ -22,14 +26,24 @@ exact::SineCosine turn_of(double degrees) {
 }
 
 // Returns the array of this name. Throws FileError if the file has none, or it is not carried.
-std::size_t array_named(const FieldSet& fields, const std::string& name,
+std::size_t array_named(const FieldFile& file, const std::string& name,
                         const std::string& file_name) {
-  const auto found = std::ranges::find(fields.arrays, name, &FieldArray::name);
-  if (found == fields.arrays.end()) {
+  const std::optional<std::size_t> found = file.find(name);
+  if (!found) {
     throw FileError(file_name + ": " + io::in_quotes(name) +
                     ", a component of vectors, is none of the fields that are regridded");
   }
-  return static_cast<std::size_t>(found - fields.arrays.begin());
+  return *found;
+}
+
+// Returns what the file says of a component.
+VectorComponent component_of(const FieldArray& array) {
+  const auto text = [&](std::string_view attribute) {
+    const auto found =
+        std::ranges::find(array.attributes, attribute, &std::pair<std::string, std::string>::first);
+    return found == array.attributes.end() ? std::string() : found->second;
+  };
+  return {array.name, text("standard_name"), text("units"), has_flags(array)};
 }
 
 }  // namespace
@@ -60,8 +74,8 @@ RegridVectors::RegridVectors(const FieldFile& file, const std::string& file_name
     : file_(file), sources_(source.num_places()), targets_(target.num_places()) {
   const FieldSet& fields = file.fields();
   for (const auto& [east, north] : names) {
-    const VectorArrays pair{array_named(fields, east, file_name),
-                            array_named(fields, north, file_name)};
+    const VectorArrays pair{array_named(file, east, file_name),
+                            array_named(file, north, file_name)};
     if (pair.east == pair.north || pair_of(pair.east) != nullptr ||
         pair_of(pair.north) != nullptr) {
       throw FileError(file_name + ": " + io::in_quotes(east) + " and " + io::in_quotes(north) +
@@ -72,6 +86,12 @@ RegridVectors::RegridVectors(const FieldFile& file, const std::string& file_name
     if (of_east.dimensions != of_north.dimensions || of_east.shape != of_north.shape) {
       throw FileError(file_name + ": " + io::in_quotes(east) + " and " + io::in_quotes(north) +
                       ", components of vectors, have different dimensions");
+    }
+    const std::string lack =
+        lack_of_vectors(component_of(of_east), component_of(of_north), source.axes() != nullptr);
+    if (!lack.empty()) {
+      throw FileError(file_name + ": " + io::in_quotes(east) + " and " + io::in_quotes(north) +
+                      " are no eastward and northward components: " + lack);
     }
     pairs_.push_back(pair);
   }

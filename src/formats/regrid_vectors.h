@@ -44,7 +44,8 @@ class SideDirections {
 class RegridVectors {
  public:
   // Pairs of names: the eastward and the northward components. Throws FileError, with the name of the file, for
-  // a name that is no array of the file, or arrays that have other dimensions than each other.
+  // a name that is no array of the file, arrays that have other dimensions than each other, and those of
+  // which the file says that they are no such components.
   RegridVectors(const FieldFile& file, const std::string& file_name,
                 std::span<const std::pair<std::string, std::string>> names,
                 const RegridSide& source, const RegridSide& target);

@@ -106,10 +106,9 @@ std::array<std::vector<double>, 2> degrees_of_pair(const io::NetcdfReader& file,
 // Returns a place of the file; both numbers are NaN if one of them is missing. Throws BadValue for
 // numbers that are no place.
 LonLat place_of_side(const SideNames& names, std::size_t i, double lon, double lat) {
-  constexpr double rounding = 1e-5;  // pi / 2 in single precision is 90.0000025 degrees
   constexpr double no_degrees = std::numeric_limits<double>::quiet_NaN();
   const bool is_lon = !std::isinf(lon);
-  const bool is_lat = std::isnan(lat) || std::abs(lat) <= 90 + rounding;
+  const bool is_lat = std::isnan(lat) || std::abs(lat) <= 90 + max_beyond_pole_deg;
   if (!is_lon || !is_lat) {
     throw io::BadValue("value " + std::to_string(i) + " of " + io::in_quotes(names.lon) + " and " +
                        io::in_quotes(names.lat) + ", " + system::shortest_text(lon) + " and " +

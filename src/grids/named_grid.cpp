@@ -277,14 +277,6 @@ std::string lack_of_mapping(const GridMapping& attributes) {
   return lack;
 }
 
-bool may_number_pixels(std::string_view name, std::string_view standard_name) {
-  constexpr std::string_view index = "healpix_index";
-  if (!standard_name.empty()) return standard_name == index;
-  constexpr std::array<std::string_view, 8> names = {"cell", "cell_ids", index, "healpix",
-                                                     "hpx",  "ipix",     "pix", "pixel"};
-  return std::ranges::find(names, name) != names.end();
-}
-
 bool NamedGrid::is_name(std::string_view text) {
   for (const std::string_view kind : {global_kind, healpix_kind, hexagon_kind, tripolar_kind}) {
     if (text.starts_with(kind)) return true;

@@ -66,7 +66,9 @@ std::vector<double> checked_axis(std::span<const double> given, const std::strin
     if (!std::isfinite(given[i])) throw InvalidInput(text_at(i) + ": an axis has no gaps", i);
   }
   const std::string rule = name + " must be an axis: two numbers or more, increasing or decreasing";
-  if (given.size() < 2) throw InvalidInput(rule);
+  if (given.size() < 2) {
+    throw InvalidInput(rule + "; " + (given.empty() ? "there are none" : text_at(0) + " alone"));
+  }
   std::vector<double> axis =
       is_longitude ? unwrapped(given) : std::vector<double>(given.begin(), given.end());
   std::size_t num_decreasing = 0;

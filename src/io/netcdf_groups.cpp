@@ -9,6 +9,9 @@
 #include <sstream>
 #include <string_view>
 
+#include "io/bad_value.h"
+#include "io/number.h"
+
 namespace rondel::io {
 namespace {
 
@@ -83,6 +86,20 @@ std::string full_name(std::span<const VariableInFile> variables, const std::stri
     found = variable.name;
   }
   return found.empty() ? whole : found + whole.substr(wanted.size());
+}
+
+void require_one_group(std::span<const VariableInFile> variables, std::string_view name) {
+  const std::string ending = "/" + std::string(name.substr(0, name.find('[')));
+  std::string found;
+  std::size_t count = 0;
+  for (const VariableInFile& variable : variables) {
+    if (!variable.name.ends_with(ending)) continue;
+    found += (found.empty() ? "" : ", ") + in_quotes(variable.name);
+    ++count;
+  }
+  if (count > 1) {
+    throw BadValue("several groups have a variable " + in_quotes(ending.substr(1)) + ": " + found);
+  }
 }
 
 }  // namespace rondel::io

@@ -9,6 +9,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "io/netcdf_header.h"
 #include "io/netcdf_reader.h"
@@ -25,5 +26,8 @@ void resolve_names(NetcdfHeader& header);
 // alone if only one group has it. An index in brackets may follow. Other names are returned as they
 // are.
 std::string full_name(std::span<const VariableInFile> variables, const std::string& name);
+
+// Throws BadValue, which names the variables, if several groups have one of the name.
+void require_one_group(std::span<const VariableInFile> variables, std::string_view name);
 
 }  // namespace rondel::io

@@ -10,6 +10,7 @@
 #include "io/bad_value.h"
 #include "io/binary.h"
 #include "io/netcdf4_file.h"
+#include "io/netcdf_groups.h"
 #include "io/netcdf_header.h"
 #include "io/number.h"
 #include "io/wide_integers.h"
@@ -93,6 +94,9 @@ void NetcdfReader::take(NetcdfHeader&& header) {
   attributes_ = std::move(header.attributes);
   variables_ = std::move(header.variables);
   passed_over_ = std::move(header.passed_over);
+  numbers_.clear();
+  // The first one of a name counts.
+  for (std::size_t v = 0; v < variables_.size(); ++v) numbers_.emplace(variables_[v].name, v);
 }
 
 void NetcdfReader::parse(std::string_view head) {
@@ -159,8 +163,8 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
 }
 
 const VariableInFile* NetcdfReader::find(std::string_view name) const {
-  const auto at = std::ranges::find(variables_, name, &VariableInFile::name);
-  return at == variables_.end() ? nullptr : &*at;
+  const auto at = numbers_.find(name);
+  return at == numbers_.end() ? nullptr : &variables_[at->second];
 }
 
 const VariableInFile& NetcdfReader::require(std::string_view name) const {
@@ -169,6 +173,7 @@ const VariableInFile& NetcdfReader::require(std::string_view name) const {
     throw BadValue("variable " + in_quotes(name) +
                    " has a type that the file defines itself, which is not read");
   }
+  require_one_group(variables_, name);
   throw BadValue("no variable " + in_quotes(name));
 }
 

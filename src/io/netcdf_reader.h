@@ -11,6 +11,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -154,6 +156,7 @@ class NetcdfReader {
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<VariableInFile> variables_;
+  std::map<std::string, std::size_t, std::less<>> numbers_;  // of the variables, by their names
   std::vector<std::string> passed_over_;
   std::uint64_t record_size_ = 0;
 };

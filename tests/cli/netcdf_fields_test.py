@@ -205,7 +205,7 @@ class Fields(unittest.TestCase):
         said = self.run_tool(
             "interpolate", "groups.nc4:same", "--to", "to.csv", "-o", "n.csv", status=1
         )
-        self.assertIn('no variable "same"', said)
+        self.assertIn('several groups have a variable "same": "geo/same", "obs/same"', said)
         self.run_tool("interpolate", "groups.nc4:bu", "--to", "grid:30", "--weights", "wg.nc")
         said = self.run_tool("apply", "wg.nc", "groups.nc4", "-o", "o.nc")
         with netCDF4.Dataset(self.folder / "o.nc") as out:

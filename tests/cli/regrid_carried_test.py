@@ -222,6 +222,40 @@ class Carried(unittest.TestCase):
         ):
             self.assertEqual(self.run_tool("regrid", "in.nc", "grid:30", *arguments, "-o", "out.nc", status=status), [wanted])
 
+    def test_vectors_of_groups_have_the_names_of_their_files(self):
+        lon, lat = np.arange(5.0, 360, 10), np.arange(-85.0, 90, 10)
+        with netCDF4.Dataset(self.folder / "in.nc", "w") as file:
+            file.createDimension("lat", len(lat))
+            file.createDimension("lon", len(lon))
+            add(file, "lat", ("lat",), lat, units="degrees_north")
+            add(file, "lon", ("lon",), lon, units="degrees_east")
+            for place, names in (("WIND", "uv"), ("SEA", "v")):
+                group = file.createGroup(place)
+                for name in names:
+                    add(group, name, ("lat", "lon"), np.cos(np.radians(lat))[:, None] + 0 * lon)
+        for given in ("u,WIND/v", "WIND/u,WIND/v", "/WIND/u,/WIND/v", "WIND_u,WIND_v"):
+            self.run_tool("regrid", "in.nc", "grid:30", "--vector", given, "-o", given.replace("/", "") + ".nc")
+        with netCDF4.Dataset(self.folder / "WIND_u,WIND_v.nc") as wanted:
+            for given in ("u,WINDv", "WINDu,WINDv"):
+                with netCDF4.Dataset(self.folder / (given + ".nc")) as found:
+                    for name in ("WIND_u", "WIND_v"):
+                        np.testing.assert_array_equal(found[name][:], wanted[name][:])
+        several = 'in.nc: several groups have a variable "v": "WIND/v", "SEA/v"'
+        for arguments in (("in.nc", "grid:30", "--vector", "u,v"), ("in.nc:v", "grid:30"), ("in.nc", "grid:30", "--value", "v")):
+            self.assertEqual(self.run_tool("regrid", *arguments, "-o", "out.nc", status=1), [several])
+
+    def test_components_that_the_file_says_are_none_are_refused(self):
+        self.write_rotation(self.folder / "in.nc", np.array([0, 0, 1.0]))
+        with netCDF4.Dataset(self.folder / "in.nc", "a") as file:
+            file["u"].standard_name, file["v"].standard_name = "eastward_wind", "northward_wind"
+        said = self.run_tool("regrid", "in.nc", "grid:30", "--vector", "v,u", "-o", "out.nc", status=1)
+        wanted = (
+            'in.nc: "v" and "u" are no eastward and northward components: '
+            "'v' has the standard_name 'northward_wind', which is no eastward component"
+        )
+        self.assertEqual(said, [wanted])
+        self.run_tool("regrid", "in.nc", "grid:30", "--vector", "u,v", "-o", "out.nc")
+
     def write_quads(self, name, places):
         """A mesh of 4 by 3 faces without `face_coordinates`, with values at these places."""
         lon, lat = (each.ravel() for each in np.meshgrid(np.arange(0.0, 50, 10), np.arange(0.0, 40, 10)))

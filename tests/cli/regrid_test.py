@@ -341,6 +341,25 @@ class Regrid(unittest.TestCase):
             self.assertIn(wanted, said[-1])
             self.assertFalse((self.folder / "out.nc").exists())
 
+    def test_axes_without_two_numbers_are_named_with_them(self):
+        for name, lon, lat in (("onelat", [0.0, 90, 180], [47.5]), ("onelon", [7.0], [-45.0, 45]), ("nolat", [0.0, 90], [])):
+            with netCDF4.Dataset(self.folder / (name + ".nc"), "w", format="NETCDF4") as file:
+                for axis, values, units in (("lat", lat, "degrees_north"), ("lon", lon, "degrees_east")):
+                    file.createDimension(axis, len(values) or None)
+                    variable = file.createVariable(axis, "f8", (axis,))
+                    variable.units = units
+                    variable[:] = values
+                file.createVariable("t", "f8", ("lat", "lon"))[:] = np.zeros((len(lat), len(lon)))
+        rule = "must be an axis: two numbers or more, increasing or decreasing; "
+        for name, method, wanted in (
+            ("onelat", "bilinear", "lat " + rule + "lat[0] is 47.5 alone"),
+            ("onelon", "bilinear", "lon " + rule + "lon[0] is 7 alone"),
+            ("onelat", "conservative", 'variable "lat": one latitude without bounds, 47.5, has no width'),
+            ("nolat", "conservative", 'variable "lat": there are no latitudes'),
+        ):
+            said = self.lines_of(name + ".nc", "grid:5", "--method", method, "-o", "out.nc", status=1)
+            self.assertEqual(said, [name + ".nc: " + wanted])
+
     def test_repeated_columns_hide_nothing(self):
         lon, lat = np.arange(0.0, 361, 30), np.arange(-60.0, 61, 30)
         values = np.where(lon == 0, np.nan, np.where(lon == 360, 0, lon)) + lat[:, None]

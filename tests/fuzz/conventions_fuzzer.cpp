@@ -23,10 +23,11 @@ std::string one_of(ByteSource& source, const char* const (&words)[n]) {
   return words[source.below(n)];
 }
 
-constexpr const char* names[] = {"lon",      "lat",     "nav_lon", "nav_lat", "clon",
-                                 "clat",     "x",       "lon_b",   "time",    "lon_bnds",
-                                 "lat_bnds", "lonCell", "latCell", "t"};
-constexpr const char* dimension_names[] = {"lon", "lat", "time", "y", "x", "nv"};
+constexpr const char* names[] = {
+    "lon",      "lat",      "nav_lon", "nav_lat", "clon", "clat", "x",    "lon_b",       "time",
+    "lon_bnds", "lat_bnds", "lonCell", "latCell", "t",    "cell", "ipix", "twelvepixels"};
+// The length of a dimension is that of its name.
+constexpr const char* dimension_names[] = {"lon", "lat", "time", "y", "x", "nv", "twelvepixels"};
 constexpr const char* units[] = {
     "", "degrees_east", "degrees_north", "degree_E", "Radian", "rad", "degrees", "K", "degreeN",
     "m"};
@@ -36,6 +37,7 @@ std::vector<VariableHeader> headers_from(ByteSource& source) {
   for (VariableHeader& header : headers) {
     header.name = one_of(source, names);
     header.is_number = source.below(8) != 0;
+    header.is_integer = header.is_number && source.below(2) != 0;
     header.texts.emplace_back("units", one_of(source, units));
     if (source.below(4) == 0) header.texts.emplace_back("bounds", one_of(source, names));
     if (source.below(4) == 0) {
@@ -68,6 +70,60 @@ void test_names(const std::vector<VariableHeader>& headers) {
       require(found.empty() || with_names(attribute, text, same).size() >= found.size(),
               "no name is added");
     }
+  }
+}
+
+// Numbers of pixels that are found are those of a variable, each pixel once.
+void test_pixels(ByteSource& source, const std::vector<VariableHeader>& headers) {
+  constexpr std::uint64_t num_pixels = 12;
+  std::vector<double> numbers(64);
+  for (double& number : numbers) number = static_cast<double>(source.below(num_pixels + 1));
+  const auto read = [&](std::size_t variable, std::uint64_t begin, std::span<double> out) {
+    require(pixel_list_of(headers[variable], false) != PixelList::none, "others are not read");
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = numbers[(begin + i) % numbers.size()];
+  };
+  const auto found = numbered_pixels(headers, {"healpix:0:nested", num_pixels, "t", read});
+  if (!found) return;
+  require(headers[found->variable].shape.size() == 1, "a list has one dimension");
+  const std::uint64_t size = headers[found->variable].shape.front();
+  require(found->numbers.empty() ? size == num_pixels : found->numbers.size() == size,
+          "a list has a number for each pixel");
+  std::vector<bool> is_there(num_pixels);
+  for (const Index number : found->numbers) {
+    require(number < num_pixels && !is_there[number], "a pixel is there once");
+    is_there[number] = true;
+  }
+}
+
+// A message about two variables has no direction of its own.
+void test_vectors(ByteSource& source) {
+  constexpr const char* standard_names[] = {"", "eastward_wind", "northward_wind", "x_wind",
+                                            "unknown"};
+  constexpr const char* texts[] = {"", "m s-1", "m/s", "km.h^-1", "m s**-", "1e-3", "/ per", "^*"};
+  const auto component = [&](const char* name) {
+    return VectorComponent{name, one_of(source, standard_names), one_of(source, texts),
+                           source.below(8) == 0};
+  };
+  const VectorComponent east = component("u");
+  const VectorComponent north = component("v");
+  const bool is_along_axes = source.below(2) == 0;
+  const bool is_refused = !lack_of_vectors(east, north, is_along_axes).empty();
+  require(is_refused || (!east.has_flags && !north.has_flags), "flags are no components");
+  VectorComponent same = north;
+  same.units = east.units;
+  require(is_refused || lack_of_vectors(east, same, is_along_axes).empty(), "units agree");
+}
+
+// Latitudes stay, or are those of a pole that was near.
+void test_poles(ByteSource& source) {
+  std::vector<double> lat(source.below(8));
+  for (double& value : lat) value = source.below(2) == 0 ? source.any_double() : 90 + 1e-6;
+  const std::vector<double> before = lat;
+  const std::size_t beyond = clamp_at_poles(lat);
+  for (std::size_t i = 0; i < lat.size(); ++i) {
+    const bool is_moved = std::abs(before[i]) > 90 && std::abs(lat[i]) == 90;
+    require(is_moved || lat[i] == before[i] || std::isnan(lat[i]), "a latitude stays");
+    require(!(std::abs(lat[i]) > 90) || beyond <= i, "what is beyond a pole is told");
   }
 }
 
@@ -116,6 +172,7 @@ void test_coordinates(ByteSource& source) {
     const std::string text = lon.text("units");
     require(text.empty() || degrees_per_unit(text) == unit, "units are those of the text");
   }
+  test_pixels(source, headers);
 }
 
 void test_axis(ByteSource& source) {
@@ -255,6 +312,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       default:
         rondel::fuzz::test_repeated(source);
+        rondel::fuzz::test_vectors(source);
+        rondel::fuzz::test_poles(source);
         rondel::fuzz::test_same(source);
     }
   } catch (const rondel::InvalidInput& error) {

@@ -25,7 +25,9 @@ rondel_add_test(io_test
   io/rows_test.cpp
   io/sites_test.cpp
   io/triangles_test.cpp
+  formats/numbered_pixels_test.cpp
   formats/unpacked_test.cpp
+  formats/vector_components_test.cpp
   io/wide_integers_test.cpp
   io/zip_test.cpp
   io/zlib_data_test.cpp

@@ -259,12 +259,6 @@ void add_grid_mappings(nb::module_& module) {
       },
       nb::arg("texts"), nb::arg("numbers"));
   module.def(
-      "may_number_pixels",
-      [](const std::string& name, const std::string& standard_name) {
-        return may_number_pixels(name, standard_name);
-      },
-      nb::arg("name"), nb::arg("standard_name"));
-  module.def(
       "numbers_at",
       [](const std::string& name, const PairsIn& places, double max_apart_deg) {
         return indices_out(unlocked(

@@ -25,10 +25,12 @@
 namespace rondel::python {
 namespace {
 
-// The name of a variable, whether it holds numbers, its dimensions, their lengths, and its
-// attributes that are texts.
+// The name of a variable, whether it holds numbers, its dimensions, their lengths, its attributes that
+// are texts, and whether the numbers are integers.
 using HeaderIn = std::tuple<std::string, bool, std::vector<std::string>, std::vector<std::uint64_t>,
-                            std::vector<std::pair<std::string, std::string>>>;
+                            std::vector<std::pair<std::string, std::string>>, bool>;
+// The name of a component of vectors, its standard_name and units, and whether it has flags.
+using ComponentIn = std::tuple<std::string, std::string, std::string, bool>;
 // Indices of longitudes, latitudes and their bounds (-1 for none), the degrees in a unit of each,
 // whether they are axes, and the rank.
 using PairOut = std::tuple<std::vector<std::int64_t>, std::vector<double>, bool, int>;
@@ -36,8 +38,8 @@ using PairOut = std::tuple<std::vector<std::int64_t>, std::vector<double>, bool,
 std::vector<VariableHeader> headers_of(const std::vector<HeaderIn>& in) {
   std::vector<VariableHeader> headers;
   headers.reserve(in.size());
-  for (const auto& [name, is_number, dimensions, shape, texts] : in) {
-    headers.push_back({name, is_number, dimensions, shape, texts});
+  for (const auto& [name, is_number, dimensions, shape, texts, is_integer] : in) {
+    headers.push_back({name, is_number, dimensions, shape, texts, is_integer});
   }
   return headers;
 }
@@ -118,6 +120,12 @@ void add_value_functions(nb::module_& module) {
       },
       nb::arg("integers").noconvert(), nb::arg("type"), nb::arg("attributes"));
   module.def(
+      "clamp_at_poles",
+      [](const NumbersInOut& lat_deg) {
+        return clamp_at_poles({lat_deg.data(), lat_deg.size()});
+      },
+      nb::arg("lat_deg").noconvert());
+  module.def(
       "axis_lines",
       [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {
         return to_array<double>(
@@ -146,14 +154,33 @@ void add_conventions(nb::module_& module) {
       nb::arg("headers"), nb::arg("lon"), nb::arg("lat"), nb::arg("values"));
   module.def(
       "coordinates_of",
-      [](const std::vector<HeaderIn>& in, std::size_t variable) {
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        for (const CoordinatePair& pair : coordinates_of(headers_of(in), variable)) {
-          pairs.emplace_back(pair.lon, pair.lat);
+      [](const std::vector<HeaderIn>& in, const std::vector<std::size_t>& variables) {
+        std::vector<std::vector<std::pair<std::size_t, std::size_t>>> pairs;
+        for (const std::vector<CoordinatePair>& found : coordinates_of(headers_of(in), variables)) {
+          pairs.emplace_back();
+          for (const CoordinatePair& pair : found) pairs.back().emplace_back(pair.lon, pair.lat);
         }
         return pairs;
       },
-      nb::arg("headers"), nb::arg("variable"));
+      nb::arg("headers"), nb::arg("variables"));
+  module.def(
+      "numbered_pixels",
+      [](const std::vector<HeaderIn>& in, const std::string& grid, std::uint64_t num_pixels,
+         const std::string& mapping, const nb::callable& numbers_of) {
+        std::size_t known = CoordinatePair::none;  // the variable whose numbers are in memory
+        NumbersIn numbers;
+        const auto read = [&](std::size_t variable, std::uint64_t begin, std::span<double> out) {
+          if (variable != known) numbers = nb::cast<NumbersIn>(numbers_of(variable));
+          known = variable;
+          const std::span<const double> all = rows_of<double>(numbers);
+          std::ranges::copy(all.subspan(begin, out.size()), out.begin());
+        };
+        const auto found = numbered_pixels(headers_of(in), {grid, num_pixels, mapping, read});
+        using Listed = std::pair<std::size_t, std::vector<Index>>;
+        return found ? std::optional(Listed(found->variable, found->numbers)) : std::nullopt;
+      },
+      nb::arg("headers"), nb::arg("grid"), nb::arg("num_pixels"), nb::arg("mapping"),
+      nb::arg("numbers_of"));
   module.def(
       "parts_of_grids",
       [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
@@ -176,6 +203,16 @@ void add_conventions(nb::module_& module) {
       "are_at_places",
       [](const std::vector<HeaderIn>& in) { return are_at_places(headers_of(in)); },
       nb::arg("headers"));
+  module.def(
+      "lack_of_vectors",
+      [](const ComponentIn& east, const ComponentIn& north, bool is_along_axes) {
+        const auto component = [](const ComponentIn& in) {
+          const auto& [name, standard_name, units, has_flags] = in;
+          return VectorComponent{name, standard_name, units, has_flags};
+        };
+        return lack_of_vectors(component(east), component(north), is_along_axes);
+      },
+      nb::arg("east"), nb::arg("north"), nb::arg("is_along_axes"));
   module.def(
       "is_attribute_of_places",
       [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));

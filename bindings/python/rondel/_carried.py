@@ -16,10 +16,10 @@ from ._blocks import AnyWeights, OutputChunks, in_blocks
 from ._coordinates import (
     at_places,
     describes_places,
-    lies_elsewhere,
     mappings,
     measures_of_cells,
     parts_of_grids,
+    with_places,
 )
 from ._errors import warn_caller
 from ._places import Places
@@ -139,7 +139,8 @@ def carried(
             f"the data have no dimension {' and no '.join(lost)}, which the source has"
         )
     parts = parts_of_grids(data)
-    measures = [str(name) for name in data.data_vars if str(name) in measures_of_cells(data)]
+    measures_there = measures_of_cells(data)
+    measures = [str(name) for name in data.data_vars if str(name) in measures_there]
     measures = [name for name in measures if name not in source.own_names | parts]
     own_names = source.own_names | parts | {*measures}
     given, fields_of = data, [name for name in data.data_vars if str(name) not in own_names]
@@ -148,12 +149,11 @@ def carried(
     fields = {apart.get(name, name): data[apart.get(name, name)] for name in fields_of}
     if measures:
         warn_caller(f"left out, {_MEASURES}: {', '.join(measures)}")
-    _tell_of_others(data, fields, source)
-    taken = {
-        name: moved(array)
-        for name, array in fields.items()
-        if _is_field(array, source) and not source.is_away(data, name)
-    }
+    at_source = {str(name) for name, array in fields.items() if _is_field(array, source)}
+    away = source.are_away(data, at_source)
+    _tell_of_others(fields, source, away)
+    here = at_source - away
+    taken = {name: moved(array) for name, array in fields.items() if str(name) in here}
     lost_names = {*own_names, *map(str, mappings(data))}
     lost_names -= _bounds_of_others(data, own_names)
     rest = data.drop_vars([name for name in lost_names if name in data.variables])
@@ -295,14 +295,16 @@ def _is_field(array: xarray.DataArray, source: Places) -> bool:
 
 
 def _tell_of_others(
-    data: xarray.Dataset, fields: dict[Any, xarray.DataArray], source: Places
+    fields: dict[Any, xarray.DataArray], source: Places, are_away: set[str]
 ) -> None:
-    """Warns of variables that depend on place and cannot be carried."""
+    """Warns of variables that depend on place and cannot be carried, as they have only some of its
+    dimensions, are texts, or are away.
+    """
     dims = set(source.dims)
     names = ", ".join(map(str, source.dims))
     texts = [str(n) for n, a in fields.items() if dims <= set(a.dims) and not _is_field(a, source)]
     parts = [str(n) for n, a in fields.items() if dims & set(a.dims) and not dims <= set(a.dims)]
-    away = [str(n) for n, a in fields.items() if _is_field(a, source) and source.is_away(data, n)]
+    away = [str(n) for n in fields if str(n) in are_away]
     if away:
         warn_caller(f"left out, {_AWAY}: {', '.join(away)}")
     if texts:
@@ -323,11 +325,12 @@ def _tell_of_chunks(data: Any, output_chunks: OutputChunks) -> None:
 
 def _tell_of_coordinates(data: Any, source: Places) -> None:
     """Warns of coordinates of the places, such as their areas, which are no fields to carry."""
+    own_names = source.own_names
     lost = [
         str(name)
         for name, array in data.coords.items()
         if set(source.dims) & set(array.dims)
-        and str(name) not in source.own_names
+        and str(name) not in own_names
         and name not in data.indexes
     ]
     own = describes_places(data, lost) if lost else set()
@@ -364,7 +367,8 @@ def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Pl
         for dim, size in zip(wanted.dims, wanted.shape, strict=True)
         if dim in rest.sizes and not _is_same_dimension(rest, dim, size, wanted.index(dim))
     ]
-    away = [str(name) for name in rest.data_vars if lies_elsewhere(data, str(name))]
+    there = with_places(data, map(str, rest.data_vars))
+    away = [str(name) for name in rest.data_vars if str(name) in there]
     placed = at_places(data)
     elsewhere = [str(name) for name in rest.data_vars if str(name) in placed and name not in away]
     gathered = [name for name in elsewhere if _is_gathered(data, name)]

@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
-from typing import Any, Literal, TypeAlias
+from collections.abc import Hashable, Iterable
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray
@@ -16,6 +16,7 @@ from ._types import FloatArray, IntArray
 
 # What to do with dimensions along which places do not change: drop all, those called time, or none.
 Repeats: TypeAlias = Literal["drop", "drop_times", "keep"]
+NORTH_POLE = 90.0
 SAME = 1e-3  # degrees, between axes and coordinates of two dimensions of the same places
 MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
 
@@ -29,6 +30,8 @@ def _headers(data: Any) -> list[tuple[Any, ...]]:
     for name, variable in variables.items():
         # xarray moves what it has understood of a file to `encoding`.
         texts = {**variable.encoding, **variable.attrs}
+        # Integers with a _FillValue are decoded to floating-point numbers.
+        stored = variable.encoding.get("dtype") or variable.dtype
         headers.append(
             (
                 str(name),
@@ -36,6 +39,7 @@ def _headers(data: Any) -> list[tuple[Any, ...]]:
                 [str(dim) for dim in variable.dims],
                 list(variable.shape),
                 [(str(key), text) for key, text in texts.items() if isinstance(text, str)],
+                variable.dtype.kind in "iu" or getattr(stored, "kind", "") in "iu",
             )
         )
     return headers
@@ -116,10 +120,14 @@ class Coordinates:
 
     def _read(self, name: str, unit: float) -> xarray.Variable:
         variable = self._data[name].variable
-        if unit == 1:
+        is_lat = name == self.lat_name and variable.dtype.kind in "iuf"
+        is_beyond = is_lat and bool((np.abs(variable.values * unit) > NORTH_POLE).any())
+        if unit == 1 and not is_beyond:
             return variable
-        degrees = np.asarray(variable.values, np.float64) * unit
-        standard_name, units = MARKS["lon" if name == self.lon_name else "lat"]
+        degrees = np.array(variable.values, np.float64, order="C") * unit
+        if is_beyond:
+            _core.clamp_at_poles(degrees.reshape(-1))
+        standard_name, units = MARKS["lat" if name == self.lat_name else "lon"]
         attrs = {**variable.attrs, "standard_name": standard_name, "units": units}
         return xarray.Variable(variable.dims, degrees, attrs)
 
@@ -199,22 +207,29 @@ class Coordinates:
         return made
 
 
-def grid_of(data: Any) -> tuple[str, tuple[str, IntArray] | None] | None:
+class PixelList(NamedTuple):
+    """The pixels of HEALPix that data are at: the variable with their numbers, its dimension, and
+    the numbers, none if they are those of all pixels in order.
+    """
+
+    name: str
+    dim: str
+    numbers: IntArray | None
+
+
+def grid_of(data: Any) -> tuple[str, PixelList | None] | None:
     """The name of the grid whose points a Dataset or DataArray says it has, as files that Rondel
-    or tools for HEALPix wrote do (`CellSet.named`), and, of pixels whose numbers it has, unless
-    they are all pixels in order, the dimension along which they are, and these numbers.
+    or tools for HEALPix wrote do (`CellSet.named`), and the list of pixels that they have.
     """
     lengths = [*data.sizes.values()]
-    for attributes in _mappings_in(data).values():
+    for owner, attributes in _mappings_in(data).items():
         name, shape = _core.grid_named_by(*attributes)
         if not name:
             continue
-        pixels = _pixels_of(data, str(name), int(np.prod(shape)))
-        if pixels is not None:
-            is_whole = np.array_equal(pixels[1], np.arange(np.prod(shape)))
-            return str(name), None if is_whole else pixels
-        if np.prod(shape) in lengths or all(length in lengths for length in shape):
-            return str(name), None
+        pixels = _pixels_of(data, str(name), int(np.prod(shape)), owner)
+        fits = np.prod(shape) in lengths or all(length in lengths for length in shape)
+        if pixels is not None or fits:
+            return str(name), pixels
     return None
 
 
@@ -260,28 +275,22 @@ def _mappings_in(data: Any) -> dict[str, tuple[list[tuple[str, str]], list[tuple
     return found
 
 
-def _pixels_of(data: Any, grid: str, num_pixels: int) -> tuple[str, IntArray] | None:
-    """The dimension and the numbers of the pixels that the data have, if they have numbers."""
+def _pixels_of(data: Any, grid: str, num_pixels: int, mapping: str) -> PixelList | None:
+    """The list of pixels that the data have, if a variable is one."""
     if not grid.startswith("healpix:"):
         return None
-    known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
-    for name, item in known.items():
-        standard_name = str(item.attrs.get("standard_name", ""))
-        if item.ndim != 1 or item.size == 0 or item.dtype.kind not in "iuf":
-            continue
-        if not _core.may_number_pixels(str(name), standard_name):
-            continue
-        values = np.asarray(item.values)
-        is_number = (values >= 0) & (values < num_pixels) & (values == np.floor(values))
-        if is_number.all() and len(np.unique(values)) == len(values):
-            return str(item.dims[0]), values.astype(np.int32)
-        if standard_name:
-            why = "has a number twice"
-            if not is_number.all():
-                bad = values[~is_number][0]
-                why = f"has the number {bad}, which is not one of the {num_pixels} of {grid!r}"
-            raise ValueError(f"{name!r} has the numbers of pixels, but {why}")
-    return None
+    headers = _headers(data)
+
+    def numbers_of(index: int) -> FloatArray:
+        name = headers[index][0]
+        is_own = isinstance(data, xarray.DataArray) and name not in data.coords
+        return np.ascontiguousarray((data if is_own else data[name]).values, np.float64)
+
+    found = _core.numbered_pixels(headers, grid, num_pixels, mapping, numbers_of)
+    if found is None:
+        return None
+    name, _, dims, *_ = headers[found[0]]
+    return PixelList(name, dims[0], np.asarray(found[1], np.int32) if found[1] else None)
 
 
 def mappings(data: Any) -> list[Hashable]:
@@ -315,34 +324,48 @@ def describes_places(data: Any, names: list[str]) -> set[str]:
     """Those of the variables that are longitudes or latitudes of any places, their bounds, or parts
     of a grid.
     """
-    headers = _headers(data)
-    positions = {header[0]: k for k, header in enumerate(headers)}
-    bounds = {dict(header[4]).get("bounds", "") for header in headers}
+    bounds = {dict(header[4]).get("bounds", "") for header in _headers(data)}
     found = (parts_of_grids(data) | bounds) & {*names}
-    for name in names:
-        pairs = _core.coordinates_of(headers, positions[name])
-        if any(positions[name] in pair for pair in pairs):
+    for name, pairs in _pairs_of(data, names).items():
+        if any(name in pair for pair in pairs):
             found.add(name)
     return found
 
 
+def _pairs_of(data: Any, names: Iterable[str]) -> dict[str, list[tuple[str, str]]]:
+    """The names of the longitudes and latitudes at which each of the variables may be."""
+    headers = _headers(data)
+    known = [header[0] for header in headers]
+    positions = {name: k for k, name in enumerate(known)}
+    wanted = {name: positions[name] for name in names}
+    found = _core.coordinates_of(headers, list(wanted.values()))
+    return {
+        name: [(known[lon], known[lat]) for lon, lat in pairs]
+        for name, pairs in zip(wanted, found, strict=True)
+    }
+
+
 def pairs_of_values(data: xarray.DataArray) -> list[tuple[str, str]]:
     """The names of the longitudes and latitudes at which values may be."""
-    headers = _headers(data)
-    names = [header[0] for header in headers]
     values = str(_VALUES if data.name is None else data.name)
-    return [
-        (names[lon], names[lat]) for lon, lat in _core.coordinates_of(headers, names.index(values))
-    ]
+    return _pairs_of(data, [values])[values]
 
 
-def is_away(data: xarray.Dataset, name: str, found: Coordinates) -> bool:
-    """Whether the variable, by its dimensions and its attribute `coordinates`, is elsewhere."""
-    headers = _headers(data)
-    names = [header[0] for header in headers]
-    pairs = [
-        (names[lon], names[lat]) for lon, lat in _core.coordinates_of(headers, names.index(name))
-    ]
+def are_away(data: xarray.Dataset, names: Iterable[str], found: Coordinates) -> set[str]:
+    """The variables that, by their dimensions and their attributes `coordinates`, are elsewhere."""
+    # Variables at the same pairs get the same answer.
+    known: dict[tuple[tuple[str, str], ...], bool] = {}
+    away = set()
+    for name, pairs in _pairs_of(data, names).items():
+        if tuple(pairs) not in known:
+            known[tuple(pairs)] = _all_are_away(data, pairs, found)
+        if known[tuple(pairs)]:
+            away.add(name)
+    return away
+
+
+def _all_are_away(data: xarray.Dataset, pairs: list[tuple[str, str]], found: Coordinates) -> bool:
+    """Whether there are pairs, and none of them is the coordinates that were found."""
     if not pairs or (found.lon_name, found.lat_name) in pairs:
         return False
     for lon, lat in pairs:
@@ -354,10 +377,9 @@ def is_away(data: xarray.Dataset, name: str, found: Coordinates) -> bool:
     return True
 
 
-def lies_elsewhere(data: xarray.Dataset, name: str) -> bool:
-    """Whether the Dataset has longitudes and latitudes of this variable."""
-    pairs, _ = _core.find_coordinates(_headers(data), "", "", name)
-    return bool(pairs)
+def with_places(data: xarray.Dataset, names: Iterable[str]) -> set[str]:
+    """Those of the variables of which the Dataset has longitudes and latitudes."""
+    return {name for name, pairs in _pairs_of(data, names).items() if pairs}
 
 
 def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashable | None) -> str:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,17 +16,18 @@ from ._arrays import half_turn, in_words, point_set_hash, unit_vectors, unmasked
 from ._cell_set import CellSet, axis_lines
 from ._coordinates import (
     MARKS,
+    NORTH_POLE,
     Coordinates,
     Repeats,
+    are_away,
     grid_in_words,
     grid_of,
-    is_away,
     lack_of_pixels,
     pairs_of_values,
     with_dimensions,
 )
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
-from ._errors import warn_caller
+from ._errors import InvalidInput, warn_caller
 from ._geometries import Corners, in_degrees, is_of_geopandas
 from ._types import BoolArray, FloatArray, IntArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
@@ -48,6 +49,16 @@ def _pairs_of(found: Coordinates) -> FloatArray:
     south, west = _spread(found)
     pairs = np.stack([west.values, south.values], axis=-1).reshape(-1, 2)
     return np.ascontiguousarray(pairs, np.float64)
+
+
+def _require_latitudes(lat: Any, name: str) -> None:
+    """Refuses the first latitude beyond a pole; one that is there by rounding was moved to it."""
+    flat = np.asarray(lat, np.float64).reshape(-1)
+    beyond = np.flatnonzero((np.abs(flat) > NORTH_POLE) & np.isfinite(flat))
+    if len(beyond):
+        at = int(beyond[0])
+        text = str(flat[at]).removesuffix(".0")
+        raise InvalidInput(f"{name!r}: latitude {text} is beyond a pole, at index {at}", at)
 
 
 class Places:
@@ -99,6 +110,7 @@ class Places:
             lon, lat, repeats = "lon", "lat", "keep"
         data = unpacked(data)
         self._grid = ""
+        self._list: str | None = None  # the variable with the numbers of pixels
         if self._cells is not None:
             self._grid = self._cells._cells.facts.name
         elif data is given and lon is None and lat is None:
@@ -125,6 +137,9 @@ class Places:
         self._located = None if located.all() else located.reshape(-1)
         self._used = self._located
         self._cells_need_places = not (are_cells and self._found.have_bounds)
+        # Axes of cells are judged by their lines.
+        if self._cells_need_places and not (are_cells and self._found.are_axes):
+            _require_latitudes(lats.values, str(self._found.lat_name))
         if self._located is not None and self._cells_need_places:
             count = int(np.count_nonzero(~self._located))
             warn_caller(
@@ -147,18 +162,21 @@ class Places:
         if found is None:
             return self._with_some_cells(data)
         name, pixels = found
-        cells = CellSet.named(name) if pixels is None else CellSet._some(name, pixels[1])
+        numbers = None if pixels is None else pixels.numbers
+        cells = CellSet.named(name) if numbers is None else CellSet._some(name, numbers)
         try:
             own = Coordinates(data, None, None)
         except ValueError:
-            self._cells, self._grid = cells, name if pixels is None else ""
+            self._cells, self._grid = cells, name if numbers is None else ""
+            self._list = None if pixels is None else pixels.name
             placed = _centers(cells)
-            return placed if pixels is None else placed.rename({"cell": pixels[0]})
+            return placed if pixels is None else placed.rename({"cell": pixels.dim})
         pairs = _pairs_of(own)
         # Points that were put into another order are no longer those of the grid.
         centers = cells._degrees()
         if len(pairs) == len(centers) and are_near(pairs, centers).all():
-            self._grid, self._named_cells = name if pixels is None else "", cells
+            self._grid, self._named_cells = name if numbers is None else "", cells
+            self._list = None if pixels is None else pixels.name
             return data
         return self._with_some_cells(data)
 
@@ -299,14 +317,15 @@ class Places:
         there = np.stack([lon, lat], axis=-1).reshape(-1, 2)
         return bool(are_near(there, self._pairs_with_gaps(None)).all())
 
-    def is_away(self, data: xarray.Dataset, name: Hashable) -> bool:
-        """Whether a variable with the dimensions of the places has others."""
-        return is_away(data, str(name), self._found)
+    def are_away(self, data: xarray.Dataset, names: Iterable[str]) -> set[str]:
+        """Those of the variables with the dimensions of the places that have others."""
+        return are_away(data, names, self._found)
 
     @property
     def own_names(self) -> set[str]:
         """Variables that are coordinates or bounds, and so no fields."""
-        return {*map(str, self.coordinates), *self._found.bounds_names}
+        lists = set() if self._list is None else {self._list}
+        return {*map(str, self.coordinates), *self._found.bounds_names} | lists
 
     def index(self, dim: Hashable) -> Any:
         """The labels along a dimension, or None."""

@@ -360,6 +360,8 @@ class Regridder(Described):
             Pairs of variables of a Dataset that are the eastward and northward components of
             vectors, such as winds: their components in space are carried, which none of the methods
             turns, also near poles, and the parts along the sphere at the targets are the result.
+            They have no 'largest_share'. Units, standard_names and flags of the data must not say
+            that they are no such components.
 
         Returns
         -------
@@ -375,8 +377,10 @@ class Regridder(Described):
         ValueError
             If the data have another shape, their own longitudes and latitudes are not those of
             the source, whatever their names are, or square data without coordinates have
-            dimensions of names in the other order (lon, lat); or if they share a dimension with
-            the target, such as the time of a track; then rename the target's dimension.
+            dimensions of names in the other order (lon, lat); if they share a dimension with
+            the target, such as the time of a track; then rename the target's dimension; or if the
+            data say that vectors are none, by swapped or other standard_names, different units or
+            flags.
         InvalidInput
             If a value is infinite, with its index in the source; arrays of Dask raise it when they
             are computed.
@@ -392,6 +396,11 @@ class Regridder(Described):
         if how not in ("sum", "largest_share", "by_kind"):
             raise ValueError(f"how must be 'sum', 'largest_share' or 'by_kind', not {how!r}")
         require_share(na_thres, "na_thres", skipna)
+        vectors = list(vectors)
+        if vectors and how == "largest_share":
+            raise ValueError(
+                "vectors have no largest share: each component would be of its own source"
+            )
         options: Any = {
             "skipna": skipna,
             "max_missing": na_thres,
@@ -404,13 +413,13 @@ class Regridder(Described):
         source = self._source
         if isinstance(data, xarray.Dataset):
             data, source = source.along_cells(data)
-            pairs = pairs_of(data, vectors)
+            pairs = pairs_of(data, vectors, source)
             if not pairs:
                 return carried(data, self._applied, source, self._target, **options)
             parts = in_space(data, pairs, source)
             found = carried(parts, self._applied, source, self._target, **options)
             return on_sphere(found, data, pairs, self._target, keep_attrs)
-        if list(vectors):
+        if vectors:
             raise TypeError("vectors are variables of a Dataset, and the data are none")
         is_labeled = isinstance(data, xarray.DataArray)
         if not is_labeled and not hasattr(data, "__dask_graph__"):

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 import numpy as np
 import xarray
 
+from . import _core
 from ._carried import in_order
 from ._places import Places
 from ._values import missing_marker, unpacked
@@ -17,8 +18,12 @@ from ._winds import directions
 _AXES = "xyz"
 
 
-def pairs_of(data: xarray.Dataset, vectors: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
-    """The pairs of names, which must be those of variables with the same dimensions."""
+def pairs_of(
+    data: xarray.Dataset, vectors: Iterable[tuple[str, str]], source: Places
+) -> list[tuple[str, str]]:
+    """The pairs of names, which must be those of variables with the same dimensions, of which the
+    data do not say that they are no components of vectors.
+    """
     pairs = [(east, north) for east, north in vectors]
     names = [name for pair in pairs for name in pair]
     for name in names:
@@ -29,7 +34,19 @@ def pairs_of(data: xarray.Dataset, vectors: Iterable[tuple[str, str]]) -> list[t
     for east, north in pairs:
         if set(data[east].dims) != set(data[north].dims):
             raise ValueError(f"{east!r} and {north!r} have different dimensions")
+        first, second = _component(east, data[east]), _component(north, data[north])
+        if lack := _core.lack_of_vectors(first, second, source.are_axes):
+            raise ValueError(
+                f"{east!r} and {north!r} are no eastward and northward components: {lack}"
+            )
     return pairs
+
+
+def _component(name: str, array: xarray.DataArray) -> tuple[str, str, str, bool]:
+    """The name, standard_name and units of a component, and whether it has flags."""
+    attrs = {**array.encoding, **array.attrs}
+    has_flags = any(str(key).startswith("flag_") for key in attrs)
+    return name, str(attrs.get("standard_name", "")), str(attrs.get("units", "")), has_flags
 
 
 def in_space(data: xarray.Dataset, pairs: list[tuple[str, str]], source: Places) -> xarray.Dataset:

@@ -62,6 +62,29 @@ def test_variables_that_are_left_out_are_told(carry):
 
 
 @WAYS
+def test_variables_are_not_listed_for_each_of_them(carry, monkeypatch):
+    def number_of_lists(num_fields):
+        lists = []
+
+        def counted(data, of=rondel._coordinates._headers):
+            lists.append(data)
+            return of(data)
+
+        more = {f"f{k}": (EVERYWHERE, np.full((len(LAT), len(LON)), k)) for k in range(num_fields)}
+        series = {f"s{k}": ("time", [k, k]) for k in range(num_fields)}
+        with monkeypatch.context() as patch:
+            patch.setattr(rondel._coordinates, "_headers", counted)
+            heights = {f"h{k}": (f"h{k}", [1.0]) for k in range(num_fields)}
+            found = carry(dataset(**more, **series).assign_coords(heights))
+        assert list(found.data_vars) == ["t", *more, *series]
+        assert all(np.allclose(found[name], k) for k, name in enumerate(more))
+        return len(lists)
+
+    # A list takes a time that grows with the number of variables.
+    assert number_of_lists(60) == number_of_lists(3)
+
+
+@WAYS
 @pytest.mark.parametrize("of", ["Dataset", "DataArray"])
 def test_coordinates_of_the_places_that_are_left_out_are_told(carry, of):
     shape = (len(LAT), len(LON))

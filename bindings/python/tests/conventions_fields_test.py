@@ -150,7 +150,10 @@ def test_units_are_those_of_udunits():
             converter = lib.ut_get_converter(unit, degree)
             if converter:
                 expected = lib.cv_convert_double(converter, 1.0)
-        header = [("lon", True, ["n"], [3], [("units", word)]), ("lat", True, ["n"], [3], [])]
+        header = [
+            ("lon", True, ["n"], [3], [("units", word)], False),
+            ("lat", True, ["n"], [3], [], False),
+        ]
         try:
             pairs, _ = rondel._core.find_coordinates(header, "lon", "lat", "")
             found = pairs[0][1][0]

@@ -88,6 +88,46 @@ def test_the_order_of_pixels_is_that_of_their_numbers_or_places(tmp_path, places
         np.testing.assert_allclose(found, wanted, rtol=1e-12)
 
 
+@pytest.mark.parametrize("kept", [np.arange(768)[::-1], np.arange(20, 400)[::-1]])
+@pytest.mark.parametrize(
+    ("name", "dim"), [("cells", "ncells"), ("any", "any"), ("ipix", "n"), ("ring_number", "n")]
+)
+def test_lists_of_pixels_have_many_names_and_are_no_fields(tmp_path, name, dim, kept):
+    data = pixels(kept, dim, with_numbers=False)
+    data = data.assign({name: (dim, kept)}) if name != dim else data.assign_coords({dim: kept})
+    data = data.assign(more=(("time", dim), [FIELD[kept], FIELD[kept] + 1]))
+    found = regridded(data, tmp_path, "grid:30", "conservative")
+    # The values in the order of the pixels need no list.
+    whole = pixels(np.arange(768), with_numbers=False)
+    whole["t"] = whole.t.where(np.isin(np.arange(768), kept))
+    wanted = rondel.regrid(whole, "grid:30").t
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
+    assert list(rondel.regrid(data, "grid:30").data_vars) == ["t", "more"]
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        assert list(file.data_vars) == ["t", "more"]
+
+
+def test_other_integers_on_pixels_are_fields(tmp_path):
+    counts = np.arange(768) % 7
+    data = pixels(np.arange(768), with_numbers=False).assign(
+        cell_number=("cell", counts), nest_index=("cell", np.arange(768)[::-1])
+    )
+    regridded(data, tmp_path, "grid:30", "conservative")
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        assert set(file.data_vars) == {"t", "cell_number", "nest_index"}
+        np.testing.assert_allclose(
+            file.cell_number, rondel.regrid(data, "grid:30").cell_number, rtol=1e-12
+        )
+    # The grid as the source says that values are in the order of the pixels.
+    unclear = data.assign(place=("cell", np.arange(768)[::-1]))
+    found = rondel.Regridder("healpix:3:ring", "grid:30", "conservative")(unclear)
+    np.testing.assert_array_equal(found.t, rondel.regrid(data, "grid:30").t)
+    unclear.to_netcdf(tmp_path / "in.nc")
+    rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc", source="healpix:3:ring")
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        np.testing.assert_allclose(file.t, found.t, rtol=1e-12)
+
+
 def test_places_of_some_pixels_have_their_cells(tmp_path):
     found = regridded(
         pixels(NORTH, places=True, with_numbers=False), tmp_path, "grid:30", "conservative"
@@ -137,13 +177,24 @@ def test_pictures_of_some_pixels_cover_no_more_than_these(places, with_numbers):
             pixels(np.arange(3), attrs={"standard_name": "healpix_index"}).assign_coords(
                 cell=("cell", [1, 2, 768], {"standard_name": "healpix_index"})
             ),
-            "'cell' has the numbers of pixels, but has the number 768",
+            "variable 'cell' has the number 768, which is not one of the 768 pixels",
         ),
         (
             pixels(np.arange(3)).assign_coords(
                 cell=("cell", [1, 2, 1], {"standard_name": "healpix_index"})
             ),
-            "'cell' has the numbers of pixels, but has a number twice",
+            "variable 'cell' has the number 1 of a pixel twice",
+        ),
+        (pixels([5, 5, 6]), "variable 'cell' has the number 5 of a pixel twice"),
+        (
+            pixels(np.arange(768)[::-1], "n", with_numbers=False).assign_coords(
+                place=("n", np.arange(768)[::-1])
+            ),
+            "'place' may have the numbers of the pixels of 'healpix:3:ring'",
+        ),
+        (
+            pixels([3, 5, 6], "n", with_numbers=False).assign(place=("n", [3, 5, 6])),
+            "'place' may have the numbers of the pixels of 'healpix:3:ring'",
         ),
     ],
 )
@@ -151,7 +202,7 @@ def test_what_is_missing_is_named(tmp_path, data, message):
     with pytest.raises(ValueError, match=message):
         rondel.regrid(data, "grid:30")
     data.to_netcdf(tmp_path / "in.nc")
-    with pytest.raises(OSError, match=r"grid mapping of|has the number"):
+    with pytest.raises(OSError, match=r"grid mapping of|has the number|may have the numbers"):
         rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc")
 
 

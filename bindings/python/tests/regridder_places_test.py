@@ -146,6 +146,36 @@ def test_cells_beside_their_coordinates_are_told():
         rondel.Regridder(far, TARGET, "conservative")
 
 
+@pytest.mark.parametrize("method", ["conservative", "nearest", "bilinear", "linear"])
+def test_latitudes_beyond_a_pole_by_rounding_are_at_the_pole(method, tmp_path):
+    pytest.importorskip("netCDF4")
+    lat = np.linspace(-90, 90, 19)
+    values = np.random.default_rng(2).normal(size=(19, 36))
+
+    def regridded(north, target="grid:7x5"):
+        coords = {
+            "lat": ("lat", [*lat[:-1], north], NORTH),
+            "lon": ("lon", np.arange(5.0, 360, 10), EAST),
+        }
+        data = xarray.Dataset({"t": (("lat", "lon"), values)}, coords)
+        data.to_netcdf(tmp_path / "in.nc")
+        return rondel.regrid(data, target, method).t
+
+    def of_file():
+        rondel.regrid_file(tmp_path / "in.nc", "grid:7x5", tmp_path / "out.nc", method=method)
+        with xarray.open_dataset(tmp_path / "out.nc") as file:
+            return file.t.load()
+
+    wanted = regridded(90.0)
+    for north in (90.000009, float(np.nextafter(np.float32(90), np.float32(91)))):
+        np.testing.assert_array_equal(regridded(north), wanted)
+        np.testing.assert_allclose(of_file(), wanted, rtol=1e-12)
+    with pytest.raises(rondel.InvalidInput, match=r"'lat': latitude 90.00002 is beyond a pole"):
+        regridded(90.00002)
+    with pytest.raises(OSError, match=r"latitude 90.00002"):
+        of_file()
+
+
 def square(n=8):
     """A square curvilinear grid with its nodes, and a field that is the latitude."""
     node_lon, node_lat = np.meshgrid(np.linspace(0, 40, n + 1), np.linspace(-12, 12, n + 1))

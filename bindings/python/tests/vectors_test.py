@@ -171,3 +171,63 @@ def test_unlimited_dimensions_stay(winds):
     winds.encoding["unlimited_dims"] = {"time", "lat"}
     found = rondel.regrid(winds, "healpix:1", vectors=[("u", "v")])
     assert found.encoding.get("unlimited_dims") == {"time"}
+
+
+@pytest.mark.parametrize(
+    ("east", "north", "why"),
+    [
+        ({"standard_name": "northward_wind"}, {"standard_name": "eastward_wind"}, "no eastward"),
+        ({"standard_name": "eastward_wind"}, {"standard_name": "air_temperature"}, "no northward"),
+        ({"standard_name": "grid_eastward_wind"}, {}, "which is no eastward component"),
+        (
+            {"standard_name": "eastward_wind"},
+            {"standard_name": "northward_sea_water_velocity"},
+            "which are different vectors",
+        ),
+        ({"units": "m s-1"}, {"units": "km h-1"}, "'u' has the units 'm s-1', and 'v' 'km h-1'"),
+        ({}, {"flag_values": np.array([1, 2], "i4")}, "'v' has flags"),
+        ({"flag_meanings": "calm storm"}, {}, "'u' has flags"),
+    ],
+)
+def test_components_that_the_data_say_are_none_are_refused(winds, east, north, why, tmp_path):
+    pytest.importorskip("netCDF4")
+    winds.u.attrs, winds.v.attrs = east, north
+    with pytest.raises(ValueError, match=why):
+        rondel.regrid(winds, "grid:9x7", vectors=[("u", "v")])
+    winds.to_netcdf(tmp_path / "in.nc")
+    with pytest.raises(OSError, match=why):
+        rondel.regrid_file(
+            tmp_path / "in.nc", "grid:9x7", tmp_path / "out.nc", vectors=[("u", "v")]
+        )
+
+
+@pytest.mark.parametrize(
+    ("east", "north"),
+    [
+        ({"standard_name": "eastward_wind"}, {"standard_name": "northward_wind"}),
+        ({"standard_name": "x_wind"}, {"standard_name": "y_wind"}),  # along axes
+        ({"standard_name": "unknown"}, {"standard_name": "unknown"}),
+        ({"units": "m s-1"}, {"units": "m/s"}),
+        ({"units": "m s**-1"}, {"units": "meters per second"}),
+        ({"units": "kg.m-1.s-2"}, {"units": "kg/m/s^2"}),
+        ({"units": "m s-1"}, {}),
+    ],
+)
+def test_other_components_are_those_without_attributes(winds, east, north):
+    wanted = rondel.regrid(winds, "grid:9x7", vectors=[("u", "v")])
+    winds.u.attrs, winds.v.attrs = east, north
+    found = rondel.regrid(winds, "grid:9x7", vectors=[("u", "v")])
+    for name in ("u", "v"):
+        np.testing.assert_array_equal(found[name], wanted[name])
+        assert found[name].attrs == winds[name].attrs
+
+
+def test_vectors_have_no_largest_share(winds):
+    with pytest.raises(ValueError, match="vectors have no largest share"):
+        rondel.regrid(winds, "grid:9x7", "largest_share", vectors=[("u", "v")])
+    regridder = rondel.Regridder(winds, "grid:9x7", "conservative")
+    with pytest.raises(ValueError, match="vectors have no largest share"):
+        regridder(winds, how="largest_share", vectors=iter([("u", "v")]))
+    # Other arrays may have categories beside vectors.
+    found = regridder(winds, how="by_kind", vectors=iter([("u", "v")]))
+    np.testing.assert_array_equal(found.u, regridder(winds, vectors=[("u", "v")]).u)

@@ -290,6 +290,33 @@ std::pair<std::string, std::size_t> refusal_of_axis(const Doubles& values, const
   return {};
 }
 
+TEST(axes, latitudes_that_rounding_moved_beyond_a_pole_are_there) {
+  const double next = std::nextafter(90.0F, 100.0F);
+  Doubles lat = {-next, -90, 0, no_number, 90.000009, 45};
+  EXPECT_EQ(clamp_at_poles(lat), lat.size());
+  EXPECT_EQ(lat[0], -90);
+  EXPECT_EQ(lat[4], 90);
+  EXPECT_TRUE(std::isnan(lat[3]));
+  lat = {90.00001, 90.00002, 91, -95};
+  EXPECT_EQ(clamp_at_poles(lat), 1U);
+  EXPECT_EQ(lat, (Doubles{90, 90.00002, 91, -95}));
+  EXPECT_EQ(clamp_at_poles({}), 0U);
+}
+
+TEST(axes, of_less_than_two_cells_without_bounds_are_refused_with_their_number) {
+  const auto why = [](const Doubles& values, bool is_longitude) {
+    try {
+      (void)axis_lines(values, {}, is_longitude);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(why({}, false), "there are no latitudes");
+  EXPECT_EQ(why({47.5}, false), "one latitude without bounds, 47.5, has no width");
+  EXPECT_EQ(why({7}, true), "one longitude without bounds, 7, has no width");
+}
+
 TEST(axes, of_cells_are_in_order) {
   const std::string throughout = ", but an axis of cells must increase or decrease throughout";
   using Refusal = std::pair<std::string, std::size_t>;

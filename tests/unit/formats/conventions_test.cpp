@@ -392,6 +392,42 @@ TEST(conventions, of_one_variable_are_those_of_its_own_attribute) {
   EXPECT_THROW((void)coordinates_of(headers, 6), InvalidInput);
 }
 
+// A search that looks at all variables for each of them takes minutes here.
+TEST(conventions, files_have_thousands_of_variables) {
+  std::vector<VariableHeader> headers = {header("lon", {"lon"}, {{"units", "degrees_east"}}),
+                                         header("lat", {"lat"}, {{"units", "degrees_north"}}),
+                                         header("nav_lon", {"y", "x"}),
+                                         header("nav_lat", {"y", "x"}),
+                                         header("lon_bnds", {"lon", "two"}),
+                                         header("lat_bnds", {"lat", "two"})};
+  std::vector<std::size_t> wanted;
+  for (std::size_t k = 0; k < 6000; ++k) {
+    wanted.push_back(headers.size());
+    const std::string name = "f" + std::to_string(k);
+    if (k % 3 == 0) headers.push_back(header(name, {"time", "lat", "lon"}));
+    if (k % 3 == 1)
+      headers.push_back(header(name, {"y", "x"}, {{"coordinates", "nav_lat nav_lon"}}));
+    if (k % 3 == 2) headers.push_back(header(name, {"level"}));
+  }
+  const std::vector<std::vector<CoordinatePair>> pairs = coordinates_of(headers, wanted);
+  ASSERT_EQ(pairs.size(), wanted.size());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    ASSERT_EQ(pairs[k].size(), k % 3 == 2 ? 0U : 1U) << k;
+    if (k % 3 == 2) continue;
+    const CoordinatePair& pair = pairs[k].front();
+    EXPECT_EQ(pair.lon, k % 3 == 0 ? 0U : 2U);
+    EXPECT_EQ(pair.lat, pair.lon + 1);
+    EXPECT_EQ(pair.lon_bounds, k % 3 == 0 ? 4U : CoordinatePair::none);
+    EXPECT_EQ(pair.is_listed, k % 3 == 1);
+  }
+  // The questions of one variable and of several have one answer.
+  const std::vector<CoordinatePair> alone = coordinates_of(headers, wanted[1]);
+  ASSERT_EQ(alone.size(), 1U);
+  EXPECT_EQ(alone.front().rank, pairs[1].front().rank);
+  EXPECT_THROW((void)coordinates_of(headers, std::vector<std::size_t>{headers.size()}),
+               InvalidInput);
+}
+
 TEST(conventions, values_without_time_have_coordinates_that_repeat_along_it) {
   const std::vector<VariableHeader> headers = {
       header("XLONG", {"Time", "y", "x"}, {{"units", "degree_east"}}),

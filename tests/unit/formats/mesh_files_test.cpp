@@ -601,7 +601,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1}, {2, 3});
             }),
-            "variable \"lon\": one longitude without bounds has no width");
+            "variable \"lon\": one longitude without bounds, 1, has no width");
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, 2}, {2, 3}, {0, 1, 2, 3});
             }),

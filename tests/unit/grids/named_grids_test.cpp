@@ -215,13 +215,6 @@ TEST(named_grids, it_is_told_what_attributes_of_pixels_lack) {
             "indexing_scheme or healpix_order (nested or ring)");
 }
 
-TEST(named_grids, numbers_of_pixels_are_known_by_their_variable) {
-  EXPECT_TRUE(may_number_pixels("anything", "healpix_index"));
-  EXPECT_TRUE(may_number_pixels("cell", ""));
-  EXPECT_FALSE(may_number_pixels("cell", "latitude"));
-  EXPECT_FALSE(may_number_pixels("time", ""));
-}
-
 TEST(named_grids, some_cells_are_those_of_the_whole) {
   for (const char* const name : {"healpix:2:ring", "healpix:1", "O4", "C3", "tripolar:10"}) {
     const NamedGrid grid(name);

@@ -253,8 +253,8 @@ TEST(bilinear, what_is_no_axis_is_refused) {
   const std::vector<double> good = {0, 1, 2};
   const std::size_t no = InvalidInput::no_index;
   const std::string rule = "must be an axis: two numbers or more, increasing or decreasing";
-  expect_bad_grid({{}, good}, {}, "lon " + rule, no);
-  expect_bad_grid({good, {7}}, {}, "lat " + rule, no);
+  expect_bad_grid({{}, good}, {}, "lon " + rule + "; there are none", no);
+  expect_bad_grid({good, {7}}, {}, "lat " + rule + "; lat[0] is 7 alone", no);
   expect_bad_grid({{0, nan, 2}, good}, {}, "lon[1] is nan: an axis has no gaps", 1);
   expect_bad_grid({good, {0, 1, std::numeric_limits<double>::infinity()}}, {}, "lat[2] is inf", 2);
   expect_bad_grid({{0, 1, 1}, good}, {}, "lon[2] is 1 after 1", 2);
