@@ -148,9 +148,12 @@ ConstrainedTriangulation constrain(const Sites& sites, std::span<const Ends> con
   // Whoever gives crossings to be split has proved this before.
   if (sources == nullptr) require_arcs(sites.points(), constraints, job.sphere);
   const NamedSites named(sites.points(), built.arrays.duplicates);
-  std::vector<Ends> ends;
-  ends.reserve(constraints.size());
-  for (const auto& [a, b] : constraints) ends.push_back({named.name(a), named.name(b)});
+  std::vector<Ends> renamed;
+  if (!built.arrays.duplicates.empty()) {
+    renamed.reserve(constraints.size());
+    for (const auto& [a, b] : constraints) renamed.push_back({named.name(a), named.name(b)});
+  }
+  const std::span<const Ends> ends = renamed.empty() ? constraints : renamed;
   ConstrainedTriangulation result;
   const bool has_edges = built.arrays.dimension == 2 && !ends.empty();
   if (has_edges) {

@@ -75,11 +75,6 @@ void ConstrainedFaces::rank_names(unsigned threads) {
 void ConstrainedFaces::find_faces() {
   face_at_.assign(is_by_rank_ ? names_.size() : sites_.size(), no_index);
   for (auto f = static_cast<Index>(faces_.size()); f-- > 0;) {
-    if (f >= system::prefetch_distance) {
-      for (const Index v : faces_[f - system::prefetch_distance]) {
-        system::prefetch_to_write(&face_at_[v]);
-      }
-    }
     if (!is_solid(f)) continue;
     const auto& [owner, v, w] = faces_[f];
     face_at_[owner] = f;
@@ -150,15 +145,19 @@ void ConstrainedFaces::give_back(unsigned threads, TriangulationArrays& arrays,
 
 // On which side of the great circle from a to b a vertex is: positive on the left.
 Sign ConstrainedFaces::side(Index a, Index b, Index v) const {
-  const Sign sign = predicates::sure_orientation(direction(a), direction(b), direction(v));
+  const Sign sign =
+      is_by_rank_ ? predicates::sure_orientation(directions_[a], directions_[b], directions_[v])
+                  : predicates::sure_orientation(direction(a), direction(b), direction(v));
   if (sign != Sign::zero) return sign;
   return orientation(point(a), point(b), point(v), sphere_);
 }
 
 // True if a vertex is inside the circle of three others.
 bool ConstrainedFaces::is_in_circle(Index a, Index b, Index c, Index v) const {
-  const Sign sign =
-      predicates::sure_side_of_circle(direction(a), direction(b), direction(c), direction(v));
+  const Sign sign = is_by_rank_ ? predicates::sure_side_of_circle(directions_[a], directions_[b],
+                                                                  directions_[c], directions_[v])
+                                : predicates::sure_side_of_circle(direction(a), direction(b),
+                                                                  direction(c), direction(v));
   if (sign != Sign::zero) return sign == Sign::positive;
   return is_in_conflict(point(a), point(b), point(c), point(v), Model::projected, sphere_);
 }

@@ -86,7 +86,7 @@ class ConstrainedFaces {
     return sites_[order_[is_by_rank_ ? v : ranks_[v]]];
   }
   [[nodiscard]] predicates::Vector direction(Index v) const {
-    return is_by_rank_ ? directions_[v] : predicates::direction(point(v), sphere_.center);
+    return predicates::direction(point(v), sphere_.center);
   }
   [[nodiscard]] Index rank_of_vertex(Index v) const { return is_by_rank_ ? v : ranks_[v]; }
   void rank_names(unsigned threads);
