@@ -90,8 +90,9 @@ RegridVectors::RegridVectors(const FieldFile& file, const std::string& file_name
     const std::string lack =
         lack_of_vectors(component_of(of_east), component_of(of_north), source.axes() != nullptr);
     if (!lack.empty()) {
-      throw FileError(file_name + ": " + io::in_quotes(east) + " and " + io::in_quotes(north) +
-                      " are no eastward and northward components: " + lack);
+      throw FileError((file_name + ": " + io::in_quotes(east) + " and " + io::in_quotes(north) +
+                       " are no eastward and northward components: ")
+                          .append(lack));
     }
     pairs_.push_back(pair);
   }

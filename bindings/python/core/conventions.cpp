@@ -134,9 +134,8 @@ void add_value_functions(nb::module_& module) {
       nb::arg("values").noconvert(), nb::arg("bounds").noconvert(), nb::arg("is_longitude"));
 }
 
-}  // namespace
-
-void add_conventions(nb::module_& module) {
+// Adds what finds coordinates and lists of pixels among variables.
+void add_searches(nb::module_& module) {
   module.def(
       "find_coordinates",
       [](const std::vector<HeaderIn>& in, const std::string& lon, const std::string& lat,
@@ -181,6 +180,10 @@ void add_conventions(nb::module_& module) {
       },
       nb::arg("headers"), nb::arg("grid"), nb::arg("num_pixels"), nb::arg("mapping"),
       nb::arg("numbers_of"));
+}
+
+// Adds what tells the kinds of variables.
+void add_kinds(nb::module_& module) {
   module.def(
       "parts_of_grids",
       [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
@@ -189,16 +192,6 @@ void add_conventions(nb::module_& module) {
       "are_measures_of_cells",
       [](const std::vector<HeaderIn>& in) { return are_measures_of_cells(headers_of(in)); },
       nb::arg("headers"));
-  module.def(
-      "with_names",
-      [](const std::string& attribute, const std::string& text,
-         const std::map<std::string, std::string>& names) {
-        return with_names(attribute, text, [&](const std::string& name) {
-          const auto found = names.find(name);
-          return found == names.end() ? std::string() : found->second;
-        });
-      },
-      nb::arg("attribute"), nb::arg("text"), nb::arg("names"));
   module.def(
       "are_at_places",
       [](const std::vector<HeaderIn>& in) { return are_at_places(headers_of(in)); },
@@ -214,9 +207,6 @@ void add_conventions(nb::module_& module) {
       },
       nb::arg("east"), nb::arg("north"), nb::arg("is_along_axes"));
   module.def(
-      "is_attribute_of_places",
-      [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));
-  module.def(
       "is_planar",
       [](const std::vector<std::pair<std::string, std::string>>& texts) {
         return is_planar(texts);
@@ -227,6 +217,31 @@ void add_conventions(nb::module_& module) {
       [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& lengths,
          std::uint64_t num_cells) { return dimensions_of_cells(names, lengths, num_cells); },
       nb::arg("names"), nb::arg("lengths"), nb::arg("num_cells"));
+}
+
+// Adds what tells the kinds of attributes, and renames what they name.
+void add_attributes(nb::module_& module) {
+  module.def(
+      "with_names",
+      [](const std::string& attribute, const std::string& text,
+         const std::map<std::string, std::string>& names) {
+        return with_names(attribute, text, [&](const std::string& name) {
+          const auto found = names.find(name);
+          return found == names.end() ? std::string() : found->second;
+        });
+      },
+      nb::arg("attribute"), nb::arg("text"), nb::arg("names"));
+  module.def(
+      "is_attribute_of_places",
+      [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));
+}
+
+}  // namespace
+
+void add_conventions(nb::module_& module) {
+  add_searches(module);
+  add_kinds(module);
+  add_attributes(module);
   add_value_functions(module);
 }
 
