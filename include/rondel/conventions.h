@@ -147,13 +147,16 @@ enum class PixelList {
 /// \param is_ring  whether pixels are numbered ring by ring, and not nested
 RONDEL_API PixelList pixel_list_of(const VariableHeader& variable, bool is_ring);
 
+/// Reads numbers of a variable from one on, with NaN for missing ones.
+using NumberReader =
+    std::function<void(std::size_t variable, std::uint64_t begin, std::span<double> out)>;
+
 /// Pixels of HEALPix that data are at.
 struct PixelQuery {
   std::string grid;              ///< the name of the grid: `healpix:3:ring`
   std::uint64_t num_pixels = 0;  ///< those of the whole grid
   std::string mapping;           ///< the name of the variable that is the grid mapping, or empty
-  /// Reads numbers of a variable from one on, with NaN for missing ones.
-  std::function<void(std::size_t variable, std::uint64_t begin, std::span<double> out)> read;
+  NumberReader read;             ///< reads the numbers of variables that may list pixels
 };
 
 /// The numbers of pixels that a variable has.
