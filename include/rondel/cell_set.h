@@ -123,7 +123,8 @@ class RONDEL_API CellSet {
   /// \throws InvalidInput with the first cell that crosses or overlaps itself
   [[nodiscard]] std::span<const double> areas() const;
   /// Returns the direction of the center of mass of each cell from the center of the sphere; (0, 0,
-  /// 0) for an empty cell.
+  /// 0) for an empty cell, and for one that is balanced around the center up to rounding, as the
+  /// whole sphere is and a band along the equator.
   /// \throws InvalidInput as areas() does
   [[nodiscard]] std::vector<Point> centers() const;
   /// Returns the cells. Those of voronoi() have no corners in the wrong order.

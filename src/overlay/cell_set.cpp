@@ -413,9 +413,15 @@ std::span<const double> CellSet::areas() const {
 }
 std::vector<Point> CellSet::centers() const {
   data_->require_simple_cells();
-  std::vector<Point> centers;
-  centers.reserve(num_cells());
-  for (const Point& moment : data_->moments()) centers.push_back(normalized(moment));
+  const std::vector<Point>& moments = data_->moments();
+  std::vector<Point> centers(num_cells());
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    constexpr double rounding = 1e-13;  // of the moment of a cell of the size of the sphere
+    const auto& [x, y, z] = moments[i];
+    const bool is_balanced =
+        std::max({std::abs(x), std::abs(y), std::abs(z)}) <= rounding * data_->areas()[i];
+    if (!is_balanced) centers[i] = normalized(moments[i]);
+  }
   return centers;
 }
 CellRings CellSet::rings() const {

@@ -81,6 +81,15 @@ TEST(overlay_cell_set, cells_of_sites_have_their_centers_of_mass_and_no_corners_
   EXPECT_EQ(cells.lines(), nullptr);
 }
 
+TEST(overlay_cell_set, cells_that_are_balanced_around_the_center_have_none) {
+  for (const double lat : {10.0, 23.4, 66.0, 90.0}) {
+    EXPECT_EQ(CellSet::lonlat_grid({{-180, 180}, {-lat, lat}}).centers()[0], Point{}) << lat;
+  }
+  EXPECT_EQ(CellSet::lonlat_grid({{-180, 180}, {-23.4, 23.5}}).centers()[0].z, 1);
+  const Point small = CellSet::lonlat_grid({{0, 1e-4}, {40, 40.0001}}).centers()[0];
+  EXPECT_NEAR(lonlats({&small, 1})[0].lat_deg, 40.00005, 1e-6);
+}
+
 TEST(overlay_cell_set, facts_have_one_element_for_each_cell) {
   const CellSet cells = CellSet::lonlat_grid(GlobalGrid{4, 2});
   for (const CellFacts& wrong :
