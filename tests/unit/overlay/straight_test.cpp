@@ -25,16 +25,16 @@
 namespace rondel::test {
 namespace {
 
-using Ring = std::vector<LonLat>;
+using LonLats = std::vector<LonLat>;
 
-Ring box_ring(double west, double south, double east, double north) {
+LonLats box_ring(double west, double south, double east, double north) {
   return {{west, south}, {east, south}, {east, north}, {west, north}};
 }
 
 // Returns features of one polygon each, without holes.
-CellSet features_of(const std::vector<Ring>& rings, const PolygonOptions& options = {}) {
+CellSet features_of(const std::vector<LonLats>& rings, const PolygonOptions& options = {}) {
   LonLatMultiPolygons features;
-  for (Ring ring : rings) {
+  for (LonLats ring : rings) {
     ring.push_back(ring.front());
     features.rows.rows.append(ring);
     features.rows.end_group();
@@ -103,7 +103,7 @@ struct ExpectedPiece {
 };
 
 // Returns the part of a ring in a box, also of the ring a turn to the west or east.
-ExpectedPiece piece_in(const Ring& ring, const LonLatBox& box) {
+ExpectedPiece piece_in(const LonLats& ring, const LonLatBox& box) {
   ExpectedPiece piece;
   for (const int turn : {-1, 0, 1}) {
     std::vector<PlanePlace> part;
@@ -127,7 +127,7 @@ ExpectedPiece piece_in(const Ring& ring, const LonLatBox& box) {
 }
 
 // The largest difference of a piece, and of its moment, from the integrals.
-double worst_difference(const std::vector<Ring>& rings, const LonLatGrid& lines) {
+double worst_difference(const std::vector<LonLats>& rings, const LonLatGrid& lines) {
   const CellSet cells = features_of(rings);
   const overlay::PreparedGrid grid(lines);
   const overlay::PieceRows found = overlay::pieces(overlay::CellSetData::of(cells), grid, true, {});
@@ -150,9 +150,9 @@ double worst_difference(const std::vector<Ring>& rings, const LonLatGrid& lines)
 }
 
 // Returns a polygon of slanted sides around a middle.
-Ring star(std::mt19937& random, const LonLat& middle, double radius) {
+LonLats star(std::mt19937& random, const LonLat& middle, double radius) {
   std::uniform_real_distribution<double> share(0.3, 1);
-  Ring ring;
+  LonLats ring;
   constexpr int corners = 11;
   for (int k = 0; k < corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / corners;
@@ -165,7 +165,7 @@ Ring star(std::mt19937& random, const LonLat& middle, double radius) {
 
 TEST(overlay_straight, pieces_are_integrals_along_the_sides) {
   std::mt19937 random(5);
-  std::vector<Ring> rings;
+  std::vector<LonLats> rings;
   for (const LonLat& middle : {LonLat{10, 5}, {-100, 48}, {178, -62}, {-179, 71}, {60, 84.5}}) {
     rings.push_back(star(random, middle, 5));
   }
@@ -177,7 +177,7 @@ TEST(overlay_straight, pieces_are_integrals_along_the_sides) {
 }
 
 TEST(overlay_straight, pieces_next_to_poles_and_around_them) {
-  const std::vector<Ring> rings = {
+  const std::vector<LonLats> rings = {
       box_ring(-180, 60, 180, 90),
       box_ring(-180, -90, 180, -89.5),
       box_ring(0, 89.999, 30, 90),
@@ -200,7 +200,7 @@ TEST(overlay_straight, boxes_along_cells_have_these_cells_alone) {
   for (int k = 0; k <= 400; ++k) lines.lon_deg.push_back(k * 0.01);
   for (int k = 0; k <= 20; ++k) lines.lat_deg.push_back(45 + k * 0.01);
   const CellSet grid = CellSet::lonlat_grid(lines);
-  const auto expect_cells = [&](const Ring& box, std::size_t first_row, std::size_t num_rows) {
+  const auto expect_cells = [&](const LonLats& box, std::size_t first_row, std::size_t num_rows) {
     const Remap remap = rondel::remap(grid, features_of({box}));
     ASSERT_EQ(remap.areas.size(), num_rows * 400);
     for (std::size_t k = 0; k < remap.areas.size(); ++k) {
@@ -221,8 +221,8 @@ TEST(overlay_straight, boxes_along_cells_have_these_cells_alone) {
 // Polygons that overlap and touch, each of them with the bytes that it has alone.
 TEST(overlay_straight, pieces_do_not_depend_on_other_polygons) {
   std::mt19937 random(8);
-  std::vector<Ring> rings = {box_ring(0, 45, 4, 45.1), box_ring(0.5, 44.95, 2, 45.1),
-                             box_ring(2, 45.09, 3, 45.2), box_ring(1, 44, 3, 46)};
+  std::vector<LonLats> rings = {box_ring(0, 45, 4, 45.1), box_ring(0.5, 44.95, 2, 45.1),
+                                box_ring(2, 45.09, 3, 45.2), box_ring(1, 44, 3, 46)};
   for (int k = 0; k < 6; ++k) rings.push_back(star(random, {2, 45}, 1 + k));
   rings.insert(rings.begin() + 2, box_ring(-180, -90, 180, 90));  // the whole sphere
   const CellSet grid = CellSet::lonlat_grid(regular_grid(720, 360));
@@ -265,7 +265,7 @@ TEST(overlay_straight, arcs_count_elsewhere) {
 
 TEST(overlay_straight, tiles_have_the_rows_of_the_whole) {
   std::mt19937 random(9);
-  std::vector<Ring> rings = {box_ring(-180, 60, 180, 90), box_ring(0, -70, 90, -65)};
+  std::vector<LonLats> rings = {box_ring(-180, 60, 180, 90), box_ring(0, -70, 90, -65)};
   for (const LonLat& middle : {LonLat{10, 5}, {-100, 48}, {178, -42}}) {
     rings.push_back(star(random, middle, 5));
   }
@@ -296,7 +296,7 @@ TEST(overlay_straight, tiles_have_the_rows_of_the_whole) {
 
 // A field that is linear in space keeps its moments under the second order: conservation.
 TEST(overlay_straight, second_order_conserves) {
-  std::vector<Ring> rings;
+  std::vector<LonLats> rings;
   for (int i = 0; i < 12; ++i) {
     for (int j = 0; j < 6; ++j) {
       rings.push_back(box_ring(-180 + 30 * i, -90 + 30 * j, -150 + 30 * i, -60 + 30 * j));
@@ -329,7 +329,7 @@ TEST(overlay_straight, sides_that_do_not_fit_are_refused) {
   // Geodesic sides are arcs, and what was repaired has arcs.
   EXPECT_EQ(features_of({box_ring(0, 0, 10, 10)}, {.edges = PolygonEdges::geodesic}).sides().size(),
             0U);
-  const Ring tie = {{0, 0}, {10, 10}, {10, 0}, {0, 10}};
+  const LonLats tie = {{0, 0}, {10, 10}, {10, 0}, {0, 10}};
   const CellSet repaired =
       features_of({tie, box_ring(20, 0, 30, 10)}, {.invalid = InvalidPolygons::repair});
   ASSERT_EQ(repaired.sides().size(), 2U);
