@@ -32,8 +32,8 @@ struct FacesToOrder {
   std::span<const Triple> neighbors;
   std::span<const std::uint8_t> sides;
   std::span<const std::uint8_t> states;
-  // By rank: whether a face that changed has, or had, this owner. The other owners have their faces
-  // in order.
+  // Not 0 for the rank of an owner that has, or had, a face that changed. The other owners have their
+  // faces in order.
   std::span<const std::uint8_t> is_touched;
   std::span<const Index> names;  // by rank
 };

@@ -161,7 +161,7 @@ std::vector<std::string> usual_names_of_bounds(std::string_view coordinate) {
   std::vector<std::string> names;
   for (const std::string_view ending : bounds_endings) {
     names.push_back(std::string(coordinate) += ending);
-    // What begins as bounds do is named by its beginning.
+    // A coordinate that begins as bounds do has no bounds of that ending.
     if (!is_name_of_bounds(names.back(), coordinate)) names.pop_back();
   }
   names.push_back(std::string(bounds_beginning) += coordinate);

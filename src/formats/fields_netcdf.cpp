@@ -379,7 +379,7 @@ class NetcdfSink : public FieldSink {
   std::set<std::string> taken_;
   // The names that axes, arrays and others get, by the names that they have in the set.
   std::map<std::string, std::string, std::less<>> own_names_;
-  // By their names and lengths in the source.
+  // The dimensions, by their names and lengths in the source.
   std::map<std::pair<std::string, std::uint64_t>, LeadingDimension> known_;
   std::vector<std::string> unlimited_;  // names of dimensions that may grow
 };

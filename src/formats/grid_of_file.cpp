@@ -184,8 +184,7 @@ void require_pixels(const io::NetcdfReader& reader) {
     said.append(std::to_string(NamedGrid(name).num_cells()));
     throw io::BadValue(
         said.append(" pixels, but no dimension is as long, and no variable has the numbers of some "
-                    "of them, as a "
-                    "variable with the standard_name healpix_index"));
+                    "of them, as a variable with the standard_name healpix_index"));
   }
 }
 

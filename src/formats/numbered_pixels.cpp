@@ -133,7 +133,7 @@ ListedNumbers listed_numbers(const VariableHeader& variable, std::size_t index,
   return found;
 }
 
-// What says that a variable is the list, the surest first.
+// The marks by which a variable is the list, the surest one first.
 enum class ListMark { stated, named, coordinate, unclear, none };
 
 // Searches the list of pixels among the variables of a file.

@@ -62,7 +62,7 @@ class UnitPowers {
       is_divided = is_slash;
     }
   }
-  bool operator==(const UnitPowers& other) const { return powers_ == other.powers_; }
+  bool operator==(const UnitPowers&) const = default;
 
  private:
   // Adds one part with its power, as "s-1" or "s^2".
@@ -156,7 +156,7 @@ std::string lack_of_vectors(const VectorComponent& east, const VectorComponent& 
   }
   const bool have_units =
       !formats::without_blanks(east.units).empty() && !formats::without_blanks(north.units).empty();
-  if (have_units && !(UnitPowers(east.units) == UnitPowers(north.units))) {
+  if (have_units && UnitPowers(east.units) != UnitPowers(north.units)) {
     return "'" + east.name + "' has the units '" + east.units + "', and '" + north.name + "' '" +
            north.units + "'";
   }

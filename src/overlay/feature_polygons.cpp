@@ -664,10 +664,6 @@ void divide_faults(std::vector<std::string> faults, const map::PolygonFeatures& 
   }
 }
 
-}  // namespace
-
-namespace {
-
 // Converts features, and repairs them if that is wanted.
 ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOptions& options,
                                const Execution& execution) {
