@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <type_traits>
 
 #include "order/close_sites.h"
@@ -85,16 +86,22 @@ class Ordering {
     constexpr std::size_t sites_per_sample = 256;
     const int size_bits = static_cast<int>(std::bit_width(sites_.size()));
     const int root_bits = std::clamp(size_bits - (copies_sites ? 12 : 10), 3, 13);
-    std::vector<Point> points;
-    for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
-      // Any place within the stride: a constant one could meet the same column of every grid.
-      points.push_back(sites_[i + (i * system::golden_multiplier >> 56)]);
-    }
-    if (check_) check_(points);
-    std::vector<std::uint64_t> keys(points.size());
-    std::vector<std::uint64_t> sample(points.size());
-    place_keys(points, model_, center_, keys);
-    for (std::uint64_t& key : keys) key <<= unused_bits;
+    constexpr std::size_t grain = 4096;
+    std::vector<std::uint64_t> keys(sites_.size() / sites_per_sample);
+    system::parallel_for(threads_, keys.size(), grain, [&](std::size_t begin, std::size_t end) {
+      std::vector<Point> points;
+      points.reserve(end - begin);
+      for (std::size_t k = begin; k < end; ++k) {
+        // Any place within the stride: a constant one could meet the same column of every grid.
+        const std::size_t i = k * sites_per_sample;
+        points.push_back(sites_[i + (i * system::golden_multiplier >> 56)]);
+      }
+      if (check_) check_(points);
+      const auto part = std::span(keys).subspan(begin, end - begin);
+      place_keys(points, model_, center_, part);
+      for (std::uint64_t& key : part) key <<= unused_bits;
+    });
+    std::vector<std::uint64_t> sample(keys.size());
     sort_words(keys, sample);
     const std::size_t most = std::max<std::size_t>(12, 6 * sample.size() >> root_bits);
     return {sample, high_key_bits, root_bits, most};
@@ -105,23 +112,25 @@ class Ordering {
     result_.order.resize(sites_.size());
   }
 
-  // By the calling thread, whose allocator keeps what is freed for the next build.
+  // By the calling thread, whose allocator keeps what is freed for the next build. A part of the input
+  // has some sites for each leaf, or its lists would waste memory.
   void make_lists() {
+    constexpr std::size_t least_of_leaf = 16;
     const std::size_t pieces = threads_ == 1 ? 1 : 4 * threads_;
-    grain_ = std::max<std::size_t>(1 << 14, system::num_pieces(sites_.size(), pieces));
-    lists_.reserve(pieces);
-    for (std::size_t begin = 0; begin < sites_.size(); begin += grain_) {
-      lists_.emplace_back(tree_.num_leaves(), std::min(grain_, sites_.size() - begin));
-    }
+    grain_ = std::max({std::size_t{1} << 14, system::num_pieces(sites_.size(), pieces),
+                       threads_ == 1 ? 0 : least_of_leaf * tree_.num_leaves()});
+    lists_.emplace(system::num_pieces(sites_.size(), grain_), tree_.num_leaves(),
+                   std::min(grain_, sites_.size()));
   }
 
   void deal() {
     system::parallel_for(threads_, sites_.size(), grain_, [&](std::size_t begin, std::size_t end) {
-      deal(begin, end, lists_[begin / grain_]);
+      deal(begin, end, lists_->start(begin / grain_));
     });
   }
 
-  void deal(std::size_t begin, std::size_t end, system::ChunkLists<Dealt>& lists) const {
+  void deal(std::size_t begin, std::size_t end,
+            typename system::ChunkLists<Dealt>::Appender lists) const {
     std::array<std::uint64_t, batch> keys;
     std::array<std::uint64_t, batch> low_keys;
     const bool has_low_keys = tree_.longest_prefix_bits() > longest_shallow_prefix;
@@ -149,12 +158,17 @@ class Ordering {
   }
 
   void count() {
+    constexpr std::size_t grain = 512;
     leaves_.resize(tree_.num_leaves());
+    system::parallel_for(threads_, leaves_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t part = 0; part < lists_->num_parts(); ++part) {
+        for (std::size_t l = begin; l < end; ++l) leaves_[l].num_sites += lists_->size(part, l);
+      }
+    });
     std::size_t rank = 0;
-    for (std::size_t l = 0; l < leaves_.size(); ++l) {
-      leaves_[l].first_rank = rank;
-      for (const auto& lists : lists_) leaves_[l].num_sites += lists.size(l);
-      rank += leaves_[l].num_sites;
+    for (Leaf& leaf : leaves_) {
+      leaf.first_rank = rank;
+      rank += leaf.num_sites;
     }
   }
 
@@ -184,26 +198,25 @@ class Ordering {
   void list_chunks(std::size_t l, Chunks& chunks) const {
     chunks.clear();
     if (l == leaves_.size()) return;
-    for (const auto& lists : lists_) {
-      lists.for_chunks(l, [&](std::span<const Dealt> chunk) { chunks.push_back(chunk); });
-    }
+    lists_->for_chunks(l, [&](std::span<const Dealt> chunk) { chunks.push_back(chunk); });
   }
 
   // Its chunks are space.next, which become those of the leaf that follows.
   void sort_leaf(std::size_t l, Space& space) {
-    constexpr std::size_t chunk_size = system::ChunkLists<Dealt>::chunk_size;
+    const int chunk_bits = lists_->chunk_bits();
+    const std::size_t in_chunk = (std::size_t{1} << chunk_bits) - 1;
     Leaf& leaf = leaves_[l];
     const std::size_t size = leaf.num_sites;
     space.chunks.swap(space.next);
     list_chunks(l + 1, space.next);
     // To find the sites to copy, words have their places in the chunks instead of indices.
-    const bool has_places = copies_sites && space.chunks.size() * chunk_size <= index_mask_ + 1;
+    const bool has_places = copies_sites && space.chunks.size() << chunk_bits <= index_mask_ + 1;
     if (space.words.size() < 2 * size) space.words.resize(2 * size);
     std::uint64_t* end = space.words.data();
     for (std::size_t c = 0; c < space.chunks.size(); ++c) {
       for (std::size_t i = 0; i < space.chunks[c].size(); ++i) {
         const std::uint64_t word = space.chunks[c][i].word;
-        *end++ = has_places ? (word & ~index_mask_) | (c * chunk_size + i) : word;
+        *end++ = has_places ? (word & ~index_mask_) | ((c << chunk_bits) + i) : word;
       }
     }
     const std::span words(end, size);
@@ -212,14 +225,14 @@ class Ordering {
     const std::span<Index> order(result_.order.data() + leaf.first_rank, size);
     bool has_ties = false;
     for (std::size_t i = 0; i < size; ++i) {
-      if (i / chunk_size < space.next.size()) {
-        system::prefetch(space.next[i / chunk_size].data() + i % chunk_size);
+      if (i >> chunk_bits < space.next.size()) {
+        system::prefetch(space.next[i >> chunk_bits].data() + (i & in_chunk));
       }
       const std::size_t place = words[i] & index_mask_;
       order[i] = static_cast<Index>(place);
       if constexpr (copies_sites) {
         if (has_places) {
-          const Dealt& dealt = space.chunks[place / chunk_size][place % chunk_size];
+          const Dealt& dealt = space.chunks[place >> chunk_bits][place & in_chunk];
           order[i] = static_cast<Index>(dealt.word & index_mask_);
           copies_.set(leaf.first_rank + i, dealt.site);
         }
@@ -253,7 +266,7 @@ class Ordering {
 
   // Duplicates have left gaps behind the order of their leaves.
   void close_gaps() {
-    lists_.clear();
+    lists_.reset();
     std::size_t rank = 0;
     auto& order = result_.order;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
@@ -291,8 +304,8 @@ class Ordering {
   unsigned threads_;
   std::uint64_t index_mask_;
   KeyTree tree_;
-  std::size_t grain_ = 0;                         // sites of a piece of the input
-  std::vector<system::ChunkLists<Dealt>> lists_;  // by piece
+  std::size_t grain_ = 0;                           // sites of a part of the input
+  std::optional<system::ChunkLists<Dealt>> lists_;  // by part and leaf
   std::vector<Leaf> leaves_;
   std::vector<Merged> merged_;
   SpatialOrder result_;

@@ -6,6 +6,7 @@ rondel_add_test(kernel_test
   kernel/order_test.cpp
   kernel/walk_test.cpp
   system/checked_product_test.cpp
+  system/chunk_lists_test.cpp
   system/large_arrays_test.cpp
   order/spatial_index_test.cpp
   order/spatial_order_test.cpp

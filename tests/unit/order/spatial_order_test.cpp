@@ -22,7 +22,7 @@ namespace {
 
 using order::SpatialOrder;
 
-constexpr unsigned thread_counts[] = {1, 2, 3, 7, 16};
+constexpr unsigned thread_counts[] = {1, 2, 3, 7, 16, 64};
 
 auto coordinates(const Point& p) { return std::tie(p.x, p.y, p.z); }
 
@@ -92,7 +92,7 @@ void expect_order_by_definition(std::span<const Point> sites, Model model, const
   }
   std::vector<Point> ordered;
   for (const Index i : expected.order) ordered.push_back(sites[i]);
-  for (const unsigned threads : {1U, 3U}) {
+  for (const unsigned threads : {1U, 3U, 64U}) {
     std::vector<Point> copies(sites.size());
     expect_same(order::spatial_order(sites, model, center, threads, {},
                                      system::SiteCopies(std::span(copies))),
