@@ -207,8 +207,7 @@ class Editor {
     hull_.reset();
     span_.clear();
     places_.assign(place_of_site, representatives);
-    sites_.assign({}, {}, center_);
-    for (Index place = 0; place < representatives.size(); ++place) refresh(place);
+    sites_.assign(places_.points(), places_.representatives(), center_);
     schedule_.done(places_.num_places());
   }
   void adopt(topology::Mesh mesh, std::span<const std::array<Index, 2>> hidden) {

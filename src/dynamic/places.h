@@ -124,6 +124,9 @@ class RONDEL_API Places {
   void assign(std::span<const Index> place_of_site, std::span<const Index> representatives);
 
  private:
+  // keys[i] is that of places[i].
+  [[nodiscard]] std::vector<order::HilbertKey> keys_of(std::span<const Index> places) const;
+
   // Places with several sites list them twice, so that whoever leaves has a successor at once: by
   // name, and by who speaks.
   struct Resident {

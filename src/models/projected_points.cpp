@@ -4,6 +4,7 @@
 #include "models/projected_points.h"
 
 #include <algorithm>
+#include <array>
 #include <new>
 #include <utility>
 
@@ -27,13 +28,20 @@ void ProjectedPoints::assign(std::span<const Point> input, std::span<const Index
   input_ = input;
   order_ = order;
   center_ = center;
+  constexpr std::size_t some = 128;
+  std::array<Point, some> points;
   directions_.clear();
   system::reserve_large(directions_, order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + system::prefetch_distance < order.size()) {
-      system::prefetch(&input[order[i + system::prefetch_distance]]);
+  directions_.resize(order.size());
+  for (std::size_t begin = 0; begin < order.size(); begin += some) {
+    const std::size_t count = std::min(some, order.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (begin + i + system::prefetch_distance < order.size()) {
+        system::prefetch(&input[order[begin + i + system::prefetch_distance]]);
+      }
+      points[i] = input[order[begin + i]];
     }
-    directions_.push_back(predicates::direction(input[order[i]], center));
+    predicates::directions(std::span(points).first(count), center, directions_.data() + begin);
   }
   low_parts_ = {};
   num_low_parts_ = 0;

@@ -247,6 +247,11 @@ void SpatialIndex::assign(const std::vector<HilbertKey>& keys, const std::vector
   *this = {};
   size_ = keys.size();
   constexpr std::size_t fill = node_size * 3 / 4;  // room for the next changes
+  std::size_t num_nodes = 0;
+  for (std::size_t level = keys.size(); level > 1; num_nodes += level) {
+    level = level / fill + (level % fill != 0 ? 1 : 0);
+  }
+  system::reserve_large(nodes_, num_nodes);
   std::vector<Index> below;
   for (std::size_t begin = 0; begin < keys.size(); begin += fill) {
     Node& leaf = nodes_[below.emplace_back(new_node())];
