@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """How builds by many ranks or threads would scale: a model, from a ledger of measured parts.
 
-The ledger has what each phase costs each of simulated ranks (ranks_bench), and what each square of the
-tree that fills a seam costs (seam_bench), in processor time of one thread. The time of a phase is fitted
-by terms that its work consists of, N = n / P sites of a rank and sqrt(n P) sites that rank 0 joins; a
-message costs its latency for each other rank and its bytes at the bandwidth. Nothing else is in it: not
-the memory bandwidth that cores share, not the file system, no ranks that wait for noise.
+The ledger has what each phase costs each of simulated ranks (ranks_bench), and what simulated threads
+share and what one of them does alone (threads_bench), in processor time of one thread. The time of a phase
+of ranks is fitted by terms that its work consists of, N = n / P sites of a rank and sqrt(n P) sites that
+rank 0 joins; a message costs its latency for each other rank and its bytes at the bandwidth. A loop that
+threads share takes as long as its longest piece, or a thread's share of all pieces if that is more. Nothing
+else is in it: not the memory bandwidth that cores share, not the file system, nobody who waits for noise.
 """
 
 import argparse
@@ -148,36 +149,31 @@ class RanksModel:
 
 
 class ThreadsModel:
-    """Of one build in memory: what all threads share, and the tree of squares, in which each height
-    waits for the one below it."""
+    """Of one build in memory."""
 
     def __init__(self, run):
-        """`run`: what seam_bench printed."""
+        """`run`: what threads_bench printed."""
         self.sites = run["sites"]
-        self.sphere = run["sphere_seconds"]
-        self.heights = {}
-        for square in run["squares"]:
-            self.heights.setdefault(square["height"], []).append(square["seconds"])
-        in_tree = sum(map(sum, self.heights.values())) + self.sphere
-        self.shared = (run["order_seconds"] + run["blocks_seconds"] + run["stitch_seconds"] +
-                       max(run["seam_seconds"] - in_tree, 0.0))
-        self.all = self.shared + in_tree
-
-    def above_blocks(self, threads):
-        """The longest chain above the blocks; the sphere is one thread's."""
-        return self.sphere + sum(max(max(seconds), sum(seconds) / threads)
-                                 for seconds in self.heights.values())
+        self.loops = run["shared"]
+        self.alone = run["alone"] + sum(loop["alone"] for loop in self.loops)
+        self.all = self.wall(1)
 
     def wall(self, threads):
-        return self.shared / threads + self.above_blocks(threads)
+        return self.alone + sum(max(loop["longest"], loop["seconds"] / threads)
+                                for loop in self.loops)
+
+    def waiting(self, threads):
+        """How long all wait for the longest pieces of loops."""
+        return self.wall(threads) - self.alone - (self.all - self.alone) / threads
 
     def speed_up(self, threads):
         return self.all / self.wall(threads)
 
 
 def ranks_table(ledger, n, all_ranks, threads, network):
-    model = RanksModel(ledger["ranks"])
-    speed_up = max(map(ThreadsModel, ledger["seams"]), key=lambda m: m.sites).speed_up(threads)
+    model = RanksModel(ledger["ranks"]["runs"])
+    largest = max(ledger["threads"]["runs"], key=lambda run: run["sites"])
+    speed_up = ThreadsModel(largest).speed_up(threads)
     rows = []
     for ranks in all_ranks:
         phases = [model.seconds(name, n, ranks) / (speed_up if name == "triangulate" else 1)
@@ -194,7 +190,7 @@ def ranks_table(ledger, n, all_ranks, threads, network):
                  ["ranks", "sites of each", *WORK, "network", "all", "speed-up", "efficiency",
                   "memory of rank 0"], rows,
                  [f"A model, not a measurement: processor time of simulated ranks on "
-                  f"{ledger['processor']}, fitted to {100 * model.worst_error():.0f} % at worst; "
+                  f"{ledger['ranks']['processor']}, fitted to {100 * model.worst_error():.0f} % at worst; "
                   f"{threads} thread{'s' * (threads > 1)} a rank, which share the triangulation alone; "
                   f"a network of {network.latency * 1e6:g} microseconds and "
                   f"{network.bandwidth / 1e9:g} GB/s."])
@@ -202,25 +198,24 @@ def ranks_table(ledger, n, all_ranks, threads, network):
 
 def threads_table(ledger, all_threads):
     rows = []
-    for run in ledger["seams"]:
+    for run in ledger["threads"]["runs"]:
         model = ThreadsModel(run)
         for threads in all_threads:
-            above = model.above_blocks(threads)
             wall = model.wall(threads)
-            rows.append([power(model.sites), threads, number(wall), number(1e3 * above),
-                         number(100 * above / wall) + " %",
-                         number(100 * model.above_blocks(math.inf) / model.all) + " %",
-                         number(model.all / wall)])
+            rows.append([power(model.sites), threads, number(wall), number(1e3 * model.alone),
+                         number(100 * model.alone / wall) + " %",
+                         number(100 * model.waiting(threads) / wall) + " %",
+                         number(model.speed_up(threads))])
     return Table("Threads in one memory",
-                 ["sites", "threads", "seconds", "above the blocks, ms", "of the time",
-                  "of all work", "speed-up"], rows,
-                 [f"A model, not a measurement: processor time of one thread on "
-                  f"{ledger['processor']}; what blocks, order and stitching take is divided "
-                  "by the threads, squares of one height are worked on together, the sphere is one thread's."])
+                 ["sites", "threads", "seconds", "one thread alone, ms", "of the time",
+                  "waiting for the longest pieces", "speed-up"], rows,
+                 [f"A model, not a measurement: processor time of simulated threads on "
+                  f"{ledger['threads']['processor']}; a loop that they share takes as long as its longest "
+                  "piece, or a thread's share of all pieces."])
 
 
-def measure(folder, sizes, all_ranks, seam_sizes, repeats):
-    """A new ledger; of repeated runs the one with the least sum."""
+def measure(folder, sizes, all_ranks, threads_sizes, repeats):
+    """The parts of a new ledger for which there are sizes; of repeated runs the one with the least sum."""
     def best(program, *words, key):
         runs = []
         for seed in range(1, repeats + 1):
@@ -232,20 +227,21 @@ def measure(folder, sizes, all_ranks, seam_sizes, repeats):
     def of_ranks(run):
         return sum(phase["all_seconds"] for phase in run["phases"])
 
-    ranks = []
-    for n in sizes:
-        for p in all_ranks:
-            print(f"{power(n)} sites, {p} ranks ...", file=sys.stderr)
-            ranks.append(best("ranks_bench", n, p, key=of_ranks))
-    seams = []
-    for n in seam_sizes:
-        print(f"{power(n)} sites in memory ...", file=sys.stderr)
-        seams.append(best("seam_bench", n, key=lambda run: ThreadsModel(run).all))
-    return {"processor": environment.processor(), "ranks": ranks, "seams": seams}
+    ledger = {}
+    for part, all_words in (("ranks", [(n, p) for n in sizes for p in all_ranks]),
+                            ("threads", [(n,) for n in threads_sizes])):
+        runs = []
+        for words in all_words:
+            print(f"{part}: {' '.join(map(str, words))} ...", file=sys.stderr)
+            key = of_ranks if part == "ranks" else lambda run: ThreadsModel(run).all
+            runs.append(best(f"{part}_bench", *words, key=key))
+        if runs:
+            ledger[part] = {"processor": environment.processor(), "runs": runs}
+    return ledger
 
 
 def text_of(ledger):
-    """The text of a ledger's file: a line for each phase of a run and for each square of a seam."""
+    """The text of a ledger's file: a line for each phase of a run and for each loop."""
     text = json.dumps(ledger, indent=1)
     return re.sub(r"\{[^{}\[\]]*\}", lambda innermost: " ".join(innermost[0].split()), text) + "\n"
 
@@ -255,7 +251,7 @@ def read_ledger(path):
         ledger = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise SystemExit(f"scale-model: {path}: {error}") from None
-    if not isinstance(ledger, dict) or not {"processor", "ranks", "seams"} <= ledger.keys():
+    if not isinstance(ledger, dict) or not {"ranks", "threads"} <= ledger.keys():
         raise SystemExit(f"scale-model: {path}: not a ledger")
     return ledger
 
@@ -294,13 +290,15 @@ def parse(words):
     threads.add_argument("--threads", type=count, nargs="+", default=[1, 4, 16, 64])
     for command in (ranks, threads):
         command.add_argument("--ledger", type=pathlib.Path, default=LEDGER)
-    new = commands.add_parser("measure", help="writes a new ledger; minutes")
+    new = commands.add_parser("measure", help="writes new parts of a ledger; minutes")
     new.add_argument("--output", "-o", type=pathlib.Path, default=LEDGER)
     new.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release" / "bin",
-                     help="the folder with ranks_bench and seam_bench")
-    new.add_argument("--sites", type=count, nargs="+", default=[2**20, 2**22, 2**24])
+                     help="the folder with ranks_bench and threads_bench")
+    new.add_argument("--sites", type=count, nargs="*", default=[2**20, 2**22, 2**24],
+                     help="of ranks; without a number, the ledger keeps what it has")
     new.add_argument("--ranks", type=count, nargs="+", default=[1, 2, 4, 16, 64])
-    new.add_argument("--seam-sites", type=count, nargs="+", default=[2**24, 2**26])
+    new.add_argument("--threads-sites", type=count, nargs="*", default=[2**24, 2**26],
+                     help="of threads, the same")
     new.add_argument("--repeats", type=count, default=3)
     return parser.parse_args(words)
 
@@ -308,7 +306,9 @@ def parse(words):
 def main(words=None):
     task = parse(words)
     if task.command == "measure":
-        ledger = measure(task.programs, task.sites, task.ranks, task.seam_sites, task.repeats)
+        ledger = measure(task.programs, task.sites, task.ranks, task.threads_sites, task.repeats)
+        if not {"ranks", "threads"} <= ledger.keys():
+            ledger = read_ledger(task.output) | ledger
         task.output.write_text(text_of(ledger), encoding="utf-8")
     elif task.command == "ranks":
         network = Network(task.latency, task.bandwidth)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bulk/emit.h"
+#include "system/large_arrays.h"
 #include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {
@@ -85,7 +86,7 @@ class SeamFaces {
 
   FaceStore store_;
   std::vector<Index> first_site_;
-  std::vector<SeamSite> sites_;
+  LargeVector<SeamSite> sites_;
   LargeVector<Triple> corners_;  // seam sites
   LargeVector<Triple> neighbors_;
   std::vector<Index> ghost_faces_;

@@ -55,19 +55,28 @@ HandedUp hand_up(const BlockResult& block, Index first) {
   return result;
 }
 
-template <class PointOf>
-std::vector<Point> read_points(std::size_t size, unsigned threads, PointOf point) {
-  constexpr std::size_t grain = 4096;
-  std::vector<Point> points(size);
-  system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) points[i] = point(i);
-  });
-  return points;
-}
+// Not a vector, which would set them to zeros first.
+class SeamPoints {
+ public:
+  template <class PointOf>
+  SeamPoints(std::size_t size, unsigned threads, PointOf point)
+      : points_(system::make_large_array<Point>(size)), size_(size) {
+    constexpr std::size_t grain = 4096;
+    system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) points_[i] = point(i);
+    });
+  }
 
-std::vector<Point> points_of(const Input& input, const SeamFaces& seam) {
-  return read_points(seam.sites().size(), input.options.threads,
-                     [&](std::size_t i) { return input.point(seam.sites()[i].rank); });
+  [[nodiscard]] std::span<const Point> all() const { return {points_.get(), size_}; }
+
+ private:
+  system::LargeArray<Point> points_;
+  std::size_t size_;
+};
+
+SeamPoints points_of(const Input& input, const SeamFaces& seam) {
+  return {seam.sites().size(), input.options.threads,
+          [&](std::size_t i) { return input.point(seam.sites()[i].rank); }};
 }
 
 // A square of n uniform sites leaves some 7.3 sqrt(n) of them, so two thirds of those that come in
@@ -92,9 +101,7 @@ class SeamTree {
         seam_(seam),
         handed_up_(squares.size()),
         found_(squares.size()),
-        tallies_(squares.size()) {
-    if (rule.ledger != nullptr) rule.ledger->squares.resize(squares.size());
-  }
+        tallies_(squares.size()) {}
 
   // The last square works although what comes in is little, for those above it, which are elsewhere.
   void finish_last() { has_to_finish_ = true; }
@@ -154,7 +161,6 @@ class SeamTree {
     }
     const bool is_last = has_to_finish_ && square + 1 == squares_.size();
     if (!rule_.is_every_square && !is_worth_it(squares_[square], seam, is_last)) return;
-    const double start = now();
     const Input of_square = {points_, seam.sites, input_.options, {}, input_.extent};
     std::vector<FinalEdge> edges;
     edges.reserve(seam.edges.size());
@@ -163,19 +169,13 @@ class SeamTree {
       found_[square] = builder.build(of_square, squares_[square].block.square, edges);
       tallies_[square] = builder.tally();
     });
-    if (rule_.ledger == nullptr) return;
-    rule_.ledger->squares[square] = {squares_[square].height, seam.sites.size(),
-                                     found_[square].sites.size(), now() - start};
   }
-
-  [[nodiscard]] double now() const { return rule_.ledger == nullptr ? 0 : rule_.ledger->clock(); }
 
   // Writes the new faces, which get the names first, first + 1, ..., links them to those that are
   // known, and replaces what came in by what goes up.
   void write(Index square, Index first) {
     SquareSeam& found = found_[square];
     if (found.corners.empty()) return;
-    const double start = now();
     HandedUp& seam = handed_up_[square];
     for (Index f = 0; f < found.corners.size(); ++f) {
       for (unsigned i = 0; i < 3; ++i) {
@@ -205,7 +205,6 @@ class SeamTree {
     up.hidden = std::move(seam.hidden);
     seam = std::move(up);
     found = {};
-    if (rule_.ledger != nullptr) rule_.ledger->squares[square].seconds += now() - start;
   }
 
   const Input& input_;
@@ -250,8 +249,8 @@ void add_hidden(HandedUp& root) {
 
 // Over the whole sphere. Most of these sites lie along borders of squares, so blocks would not help;
 // their mesh is small beside the result, of so many sites.
-kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Point>& points,
-                                       double num_all) {
+kernel::Triangulated triangulate_sites(const Input& input, SeamPoints seam_points, double num_all) {
+  const std::span<const Point> points = seam_points.all();
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
   system::Job options = input.options;
@@ -268,9 +267,9 @@ kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Poi
 }
 
 // What came up, or all seam sites if the root lists none.
-bool fill_sphere(const Input& input, std::vector<Point> points, double num_all, HandedUp root,
+bool fill_sphere(const Input& input, SeamPoints points, double num_all, HandedUp root,
                  SeamFaces& seam, Tally& tally) {
-  kernel::Triangulated sphere = triangulate_sites(input, std::exchange(points, {}), num_all);
+  kernel::Triangulated sphere = triangulate_sites(input, std::move(points), num_all);
   if (sphere.arrays.dimension < 2) return false;
   predicates::add(tally, sphere.tally);
   return seam.fill(std::move(sphere.arrays), root.sites, std::move(root.edges),
@@ -297,31 +296,23 @@ bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
   for (const TreeSquare& square : squares) {
     if (square.height == 0) num_all += square.num_sites;
   }
-  std::vector<Point> points = points_of(input, seam);
+  SeamPoints points = points_of(input, seam);
   HandedUp root = models::with_model(input.options.model, [&]<class T> {
-    return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
+    return SeamTree<T>(input, points.all(), squares, rule, seam).run(results, tally);
   });
   // If the center is inside the hull what is hidden in a square is hidden.
-  if (!surround_center(points, input.center())) add_hidden(root);
-  points = read_points(root.sites.size(), input.options.threads,
-                       [&](std::size_t i) { return points[root.sites[i]]; });
-  const std::size_t num_sphere_sites = points.size();
-  const double start = rule.ledger == nullptr ? 0 : rule.ledger->clock();
-  const bool is_filled =
-      fill_sphere(input, std::move(points), num_all, std::move(root), seam, tally);
-  if (rule.ledger != nullptr) {
-    rule.ledger->num_sphere_sites = num_sphere_sites;
-    rule.ledger->sphere_seconds = rule.ledger->clock() - start;
-  }
-  return is_filled;
+  if (!surround_center(points.all(), input.center())) add_hidden(root);
+  points = SeamPoints(root.sites.size(), input.options.threads,
+                      [all = points.all(), &root](std::size_t i) { return all[root.sites[i]]; });
+  return fill_sphere(input, std::move(points), num_all, std::move(root), seam, tally);
 }
 
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
                           std::span<const BlockResult> results, const SeamRule& rule,
                           SeamFaces& seam, Tally& tally) {
-  const std::vector<Point> points = points_of(input, seam);
+  const SeamPoints points = points_of(input, seam);
   HandedUp up = models::with_model(input.options.model, [&]<class T> {
-    SeamTree<T> tree(input, points, squares, rule, seam);
+    SeamTree<T> tree(input, points.all(), squares, rule, seam);
     tree.finish_last();
     return tree.run(results, tally);
   });

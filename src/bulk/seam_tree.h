@@ -19,28 +19,12 @@
 
 namespace rondel::bulk {
 
-// What squares take, for those who measure.
-struct SeamLedger {
-  struct Work {
-    unsigned height = 0;
-    std::size_t num_seam_sites = 0;  // that come in; 0: handed on
-    std::size_t num_open = 0;        // of these, that go up
-    double seconds = 0;
-  };
-
-  double (*clock)();            // seconds
-  std::vector<Work> squares{};  // in their order
-  std::size_t num_sphere_sites = 0;
-  double sphere_seconds = 0;
-};
-
 // Which squares triangulate a seam. The result does not depend on it.
 struct SeamRule {
   // With fewer seam sites none does: their mesh over the whole sphere fits into the second cache.
   std::size_t min_sites = std::size_t{1} << 16;
   // Or those alone that are likely to leave little of what comes in.
   bool is_every_square = false;
-  SeamLedger* ledger = nullptr;
 };
 
 // What a square leaves open.

@@ -166,12 +166,16 @@ class SphereTriangulation {
 
 unsigned octants_of(std::span<const Point> sites, const Point& center) {
   unsigned octants = 0;
-  for (const Point& p : sites) {
-    const auto d = exact::to_vector(p) - exact::to_vector(center);
-    if (d.x == 0 || d.y == 0 || d.z == 0) continue;
-    octants |= 1U << ((d.x > 0 ? 1U : 0U) + (d.y > 0 ? 2U : 0U) + (d.z > 0 ? 4U : 0U));
-    if (octants == all_octants) break;
-  }
+  const auto look_at_every = [&](std::size_t stride) {
+    for (std::size_t i = 0; i < sites.size() && octants != all_octants; i += stride) {
+      const auto d = exact::to_vector(sites[i]) - exact::to_vector(center);
+      if (d.x == 0 || d.y == 0 || d.z == 0) continue;
+      octants |= 1U << ((d.x > 0 ? 1U : 0U) + (d.y > 0 ? 2U : 0U) + (d.z > 0 ? 4U : 0U));
+    }
+  };
+  // Sites that come in the order of the curve get to the last octant late.
+  look_at_every(sites.size() / 64 + 1);
+  look_at_every(1);
   return octants;
 }
 

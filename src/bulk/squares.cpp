@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "system/parallel.h"
+
 namespace rondel::bulk {
 namespace {
 
@@ -43,17 +45,47 @@ std::array<Block, 4> quarters(const Block& block, const Input& input) {
 
 // Returns the number of the square, or no_index if it has no sites.
 Index split(const Block& block, std::size_t max_sites, const Input& input,
+            std::vector<TreeSquare>& squares);
+
+// The numbers of these blocks, which have so many sites in all. Sites are looked up all over the memory:
+// where there are many, threads do so at the same time, for squares that are numbered afterwards.
+template <std::size_t N>
+std::array<Index, N> split_all(const std::array<Block, N>& blocks, std::size_t num_sites,
+                               std::size_t max_sites, const Input& input,
+                               std::vector<TreeSquare>& squares) {
+  constexpr std::size_t many_sites = std::size_t{1} << 16;
+  std::array<Index, N> numbers{};
+  if (num_sites < many_sites) {
+    for (std::size_t i = 0; i < N; ++i) numbers[i] = split(blocks[i], max_sites, input, squares);
+    return numbers;
+  }
+  std::array<std::vector<TreeSquare>, N> parts;
+  system::parallel_for(input.options.threads, N, 1, [&](std::size_t i, std::size_t /*end*/) {
+    numbers[i] = split(blocks[i], max_sites, input, parts[i]);
+  });
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto first = static_cast<Index>(squares.size());
+    if (numbers[i] != no_index) numbers[i] += first;
+    for (TreeSquare& square : parts[i]) {
+      for (Index& quarter : square.quarters) {
+        if (quarter != no_index) quarter += first;
+      }
+      squares.push_back(square);
+    }
+  }
+  return numbers;
+}
+
+Index split(const Block& block, std::size_t max_sites, const Input& input,
             std::vector<TreeSquare>& squares) {
   if (block.begin == block.end) return no_index;
   TreeSquare square = {block, static_cast<double>(block.end - block.begin)};
   if (!is_small(block, max_sites)) {
-    const auto parts = quarters(block, input);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const Index quarter = split(parts[i], max_sites, input, squares);
-      square.quarters[i] = quarter;
-      if (quarter != no_index) {
-        square.height = std::max(square.height, squares[quarter].height + 1);
-      }
+    square.quarters =
+        split_all(quarters(block, input), block.end - block.begin, max_sites, input, squares);
+    for (const Index quarter : square.quarters) {
+      if (quarter == no_index) continue;
+      square.height = std::max(square.height, squares[quarter].height + 1);
     }
   }
   squares.push_back(square);
@@ -81,7 +113,7 @@ std::array<Block, 6> cube_faces(const Input& input) {
 
 std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites) {
   std::vector<TreeSquare> squares;
-  for (const Block& face : cube_faces(input)) split(face, max_sites, input, squares);
+  split_all(cube_faces(input), input.order.size(), max_sites, input, squares);
   return squares;
 }
 

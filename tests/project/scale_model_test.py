@@ -39,12 +39,12 @@ def run_of(n, ranks):
             "seconds_in_memory": 4e-9 * n, "phases": phases}
 
 
-SEAM = {"sites": 2**20, "order_seconds": 1, "blocks": 10, "blocks_seconds": 6, "seam_sites": 5,
-        "seam_seconds": 3.5, "stitch_seconds": 1, "sphere_sites": 2, "sphere_seconds": 0.5,
-        "squares": [{"height": 2, "seam_sites": 2, "open_sites": 1, "seconds": 0.25}] * 4 +
-                   [{"height": 3, "seam_sites": 3, "open_sites": 1, "seconds": 1.0}]}
-LEDGER = {"processor": "a processor", "seams": [SEAM],
-          "ranks": [run_of(n, p) for n in (10**6, 10**8) for p in (1, 4, 64)]}
+THREADS = {"sites": 2**20, "threads": 64, "alone": 0.25,
+           "shared": [{"alone": 0.5, "pieces": 100, "seconds": 8, "longest": 0.5},
+                      {"alone": 0.25, "pieces": 6, "seconds": 2, "longest": 1.5}]}
+LEDGER = {"ranks": {"processor": "a processor",
+                    "runs": [run_of(n, p) for n in (10**6, 10**8) for p in (1, 4, 64)]},
+          "threads": {"processor": "another one", "runs": [THREADS]}}
 
 
 class Fits(unittest.TestCase):
@@ -65,7 +65,7 @@ class Fits(unittest.TestCase):
 
 class Ranks(unittest.TestCase):
     def setUp(self):
-        self.model = RanksModel(LEDGER["ranks"])
+        self.model = RanksModel(LEDGER["ranks"]["runs"])
 
     def test_runs_of_the_ledger_come_back(self):
         self.assertLess(self.model.worst_error(), 1e-6)
@@ -92,13 +92,14 @@ class Ranks(unittest.TestCase):
 
 
 class Threads(unittest.TestCase):
-    def test_heights_wait_for_each_other(self):
-        model = ThreadsModel(SEAM)
-        self.assertAlmostEqual(model.all, 11.5)
-        self.assertAlmostEqual(model.wall(1), 11.5)
-        self.assertAlmostEqual(model.above_blocks(2), 0.5 + 0.5 + 1)
-        self.assertAlmostEqual(model.above_blocks(math.inf), 0.25 + 0.5 + 1)
-        self.assertAlmostEqual(model.wall(2), 9 / 2 + 2)
+    def test_loops_are_shared_as_far_as_their_pieces_go(self):
+        model = ThreadsModel(THREADS)
+        self.assertAlmostEqual(model.alone, 1)
+        self.assertAlmostEqual(model.all, 11)
+        self.assertAlmostEqual(model.wall(1), 11)
+        self.assertAlmostEqual(model.wall(2), 1 + 4 + 1.5)
+        self.assertAlmostEqual(model.waiting(2), 0.5)
+        self.assertAlmostEqual(model.wall(math.inf), 1 + 0.5 + 1.5)
 
 
 class Command(unittest.TestCase):
@@ -127,7 +128,7 @@ class Command(unittest.TestCase):
         text = self.run_command("ranks", "--ranks", "7", "--ledger", str(self.ledger))
         self.assertIn("\n| 7 | 1,428,571,429 |", text)
         text = self.run_command("threads", "--threads", "1", "2", "--ledger", str(self.ledger))
-        self.assertIn("\n| 2^20 | 2 | 6.50 | 2,000 |", text)
+        self.assertIn("\n| 2^20 | 2 | 6.50 | 1,000 |", text)
 
     def test_the_ledger_is_kept_as_it_is_written(self):
         text = scale_model.LEDGER.read_text(encoding="utf-8")

@@ -8,4 +8,5 @@ rondel_add_test(bulk_test
   bulk/nasty_test.cpp
   bulk/same_test.cpp
   bulk/sphere_test.cpp
+  bulk/squares_test.cpp
   LIBS rondel_test_support)
