@@ -19,7 +19,7 @@ namespace rondel::system {
 
 template <class T>
 class ChunkLists {
-  // Of one part; it ends where its last chunk is filled up to.
+  // What one part has appended to a list. It ends where its last chunk is filled up to.
   struct List {
     std::size_t size;
     std::size_t end;
