@@ -70,13 +70,18 @@ mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Executio
   std::vector<FeatureTable> tables =
       read_features_together(files, options.sizes.polygons, execution);
   mesh::MeshDomain domain;
+  LongitudeExtent of_area;
+  LongitudeExtent of_others;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     tell(tables[k].facts.name, tables[k].facts.remarks);
     auto& part = k < options.coast.size()                         ? domain.coast
                  : k < options.coast.size() + options.area.size() ? domain.area
                                                                   : domain.lines;
+    LongitudeExtent& extent = &part == &domain.area ? of_area : of_others;
+    for (const LongitudeExtent& one : tables[k].longitudes) extent.include(one);
     part.push_back({std::move(tables[k].lines), std::move(tables[k].polygons)});
   }
+  domain.west_deg = west_of(of_area, of_others);
   return domain;
 }
 
@@ -300,8 +305,9 @@ Command add_mesh_triangles_command(CLI::App& group) {
   parser->footer(
       "Edges follow coasts, borders and lines; each angle is at least the smallest one, except\n"
       "near places where these meet at less than 60 degrees. Coasts finer than the mesh are\n"
-      "simplified first, without a change of topology. Kilometers are those of a sphere of\n"
-      "6371.229 km.\n\n"
+      "simplified first, without a change of topology. Longitudes are from -180 to 180 or in the\n"
+      "turn of the input, as from 0 to 360: of --area, or else of --coast and --lines. Kilometers\n"
+      "are those of a sphere of 6371.229 km.\n\n"
       "Examples:\n"
       "  rondel mesh triangles --coast land.geojson --spacing 200 -o ocean.msh\n"
       "  rondel mesh triangles --coast land.geojson --spacing 200 --fill-narrow 0.5 "

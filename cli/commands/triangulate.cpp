@@ -43,6 +43,7 @@ struct Plan {
   EdgeTable edges;                 // whose places are "coast.geojson: feature 3" or those of lines
   CompressedRows<Index> polygons;  // the sides of each feature's, which are constraints
   std::vector<std::string> names;  // of each feature, for messages
+  double west_deg = -180;          // where the turn of the longitudes begins
 };
 
 // Reads features. Throws FileError.
@@ -65,7 +66,10 @@ Plan plan_of_features(const TriangulateOptions& options, const Execution& execut
   for (const Index feature : made.features) plan.edges.places.push_back(place(feature));
   for (std::size_t f = 0; f < made.polygons.size(); ++f) plan.names.push_back(place(f));
   plan.table.sites = std::move(made.sites);
-  plan.table.positions = short_lonlats(plan.table.sites);
+  LongitudeExtent given;
+  for (const LongitudeExtent& one : features.longitudes) given.include(one);
+  plan.west_deg = west_of(given);
+  plan.table.positions = short_lonlats(plan.table.sites, plan.west_deg);
   plan.edges.constraints = std::move(made.constraints);
   plan.polygons = std::move(made.polygons);
   return plan;
@@ -90,6 +94,9 @@ Plan plan_of(const TriangulateOptions& options, Job& job) {
   Plan plan;
   plan.table = job.read();
   plan.edges = read_edge_table(options.constraints, plan.table);
+  LongitudeExtent given;
+  for (const LonLat& place : plan.table.positions) given.include({place.lon_deg, place.lon_deg});
+  plan.west_deg = west_of(given);
   return plan;
 }
 
@@ -106,7 +113,7 @@ ConstrainedTriangulation triangulated(const TriangulateOptions& options, Plan& p
   const auto sites = result.triangulation.sites().points();
   const auto added = sites.subspan(plan.table.sites.size());
   if (!plan.table.positions.empty()) {
-    const std::vector<LonLat> positions = short_lonlats(added);
+    const std::vector<LonLat> positions = short_lonlats(added, plan.west_deg);
     plan.table.positions.insert(plan.table.positions.end(), positions.begin(), positions.end());
   }
   plan.table.sites.insert(plan.table.sites.end(), added.begin(), added.end());
@@ -253,7 +260,8 @@ Command add_triangulate_command(CLI::App& tool) {
       "sites that lie on it, and everything else is Delaunay as far as constraints let sites see\n"
       "each other. It is exact and unique. Sites are the points of features, their corners and\n"
       "those that straight lines in longitude and latitude need; each place is one site. A mesh\n"
-      "of ocean models has the depths of a column 'depth' beside the sites of --constraints.\n\n"
+      "of ocean models has the depths of a column 'depth' beside the sites of --constraints, and\n"
+      "longitudes from -180 to 180 or in the turn of the input, as from 0 to 360.\n\n"
       "Examples:\n"
       "  rondel triangulate coast.geojson -o mesh.ply\n"
       "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"

@@ -47,6 +47,7 @@ RONDEL_API FeatureConstraints constraints_of_features(const FeatureLines& lines,
 /// 10.499999999999998. For points that no longitude and latitude of up to 12 decimals gives it
 /// returns one of 13 decimals that does, or another one that does, or what lonlats() returns: so
 /// points that unit_vectors() made are the same again.
-RONDEL_API std::vector<LonLat> short_lonlats(std::span<const Point> points);
+/// \param west_deg  where the turn of the longitudes begins (rondel/longitudes.h)
+RONDEL_API std::vector<LonLat> short_lonlats(std::span<const Point> points, double west_deg = -180);
 
 }  // namespace rondel

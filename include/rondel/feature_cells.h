@@ -16,6 +16,7 @@
 #include "rondel/compressed_rows.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
+#include "rondel/longitudes.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "rondel/types.h"
@@ -85,7 +86,8 @@ struct FeatureTable {
   CellRings polygons;            ///< a cell for each feature, without rings where it has no polygon
   Column ids;                    ///< their members `id`, as in SiteTable
   std::vector<bool> is_located;  ///< which features have a geometry with positions
-  CellFacts facts;               ///< with the name of the file, the properties and remarks
+  std::vector<LongitudeExtent> longitudes;  ///< of the positions of each feature
+  CellFacts facts;  ///< with the name of the file, the properties and remarks
 };
 
 /// Reads a .geojson or .json file as read_polygons() does, or by GDAL .gpkg, .fgb, .shp and .parquet,

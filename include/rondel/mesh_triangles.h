@@ -26,6 +26,8 @@ struct MeshDomain {
   std::vector<Geometries> area;  ///< polygons inside of which the mesh is; none: everywhere
   /// Lines and sides of polygons that are edges inside, and points that are nodes.
   std::vector<Geometries> lines;
+  /// Where the turn of the mesh's longitudes begins (west_of(), rondel/longitudes.h).
+  double west_deg = -180;
 };
 
 /// The kind of feature that an edge of RefinedMesh::edges follows.
@@ -73,6 +75,7 @@ struct DomainTriangles {
   /// became water where new coasts are simplified is not subtracted.
   double filled_area = 0;
   std::size_t num_small_parts = 0;  ///< parts that were smaller than wanted
+  double west_deg = -180;           ///< that of the domain
 };
 
 /// Fills a part of the sphere with triangles whose edges follow its border: simplifies coasts,
@@ -95,8 +98,8 @@ RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOp
                                      const Execution& execution = {});
 
 /// Makes a mesh for files of the triangles of a domain: edges that follow a coast are coast, the rest
-/// of the border is open. The nodes have positions with few decimals where these are theirs. Triangles
-/// are counterclockwise by these, too, for which some nodes move by less than 1e-13 degrees.
+/// of the border is open. The nodes have positions in the turn that begins at `west_deg`, with few decimals where these are theirs. Triangles
+/// are counterclockwise by these, too, for which some nodes move by less than 1e-12 degrees.
 /// \throws InvalidInput as triangle_mesh() does for points and triangles; and (the position of the
 ///         triangle) if one is so narrow that it has no area in degrees
 RONDEL_API TriangleMesh triangle_mesh(const DomainTriangles& triangles);

@@ -42,7 +42,7 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 ///
 /// 1. Numbers have the shortest digits that give back the same bits. Degrees are `positions` or,
 ///    where the mesh has none, those with few decimals where these are the node's. Where rounding
-///    them turns a sliver over, one of its nodes moves by less than 1e-13 degrees, so that triangles are
+///    them turns a sliver over, one of its nodes moves by less than 1e-12 degrees, so that triangles are
 ///    counterclockwise by the numbers in the file. Gmsh's x, y, z are `points`, of the length that
 ///    they have.
 /// 2. What a format cannot hold is left out: ADCIRC's numbers in all but ADCIRC's and SCHISM's files

@@ -15,6 +15,7 @@
 #include "arrangement/arc_checks.h"
 #include "arrangement/ring_arrays.h"
 #include "map/arc.h"
+#include "map/longitudes.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/distinct.h"
@@ -86,10 +87,11 @@ void require_fit(const FeatureLines& lines, const CellRings& polygons) {
 }  // namespace
 }  // namespace constrained
 
-std::vector<LonLat> short_lonlats(std::span<const Point> points) {
+std::vector<LonLat> short_lonlats(std::span<const Point> points, double west_deg) {
   const system::ArithmeticScope arithmetic;
   std::vector<LonLat> positions = lonlats(points);
   for (std::size_t i = 0; i < positions.size(); ++i) {
+    positions[i].lon_deg = map::longitude_in_turn(positions[i].lon_deg, west_deg);
     const LonLat shorter = map::shortened(positions[i], points[i]);
     const bool is_short = !(shorter == positions[i]);
     positions[i] = is_short ? shorter : map::with_unit_vector(positions[i], points[i]);

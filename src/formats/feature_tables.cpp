@@ -152,6 +152,18 @@ std::vector<bool> are_located(const map::PolygonFeatures& features) {
   return located;
 }
 
+std::vector<LongitudeExtent> longitudes_of(const map::PolygonFeatures& features) {
+  std::vector<LongitudeExtent> all(features.rings.size());
+  for (std::size_t f = 0; f < all.size(); ++f) {
+    const auto include = [&](std::span<const LonLat> positions) {
+      for (const LonLat& place : positions) all[f].include({place.lon_deg, place.lon_deg});
+    };
+    for (const map::LonLatRing& ring : features.rings[f]) include(ring.positions);
+    for (const std::vector<LonLat>& line : features.lines[f]) include(line);
+  }
+  return all;
+}
+
 CellTable table_of(map::PolygonFeatures& features, const PolygonOptions& options,
                    const Execution& execution) {
   overlay::ConvertedFeatures converted = overlay::converted_features(features, options, execution);
@@ -169,7 +181,10 @@ CellTable table_of(map::PolygonFeatures& features, const PolygonOptions& options
 std::vector<FeatureTable> tables_of(std::vector<map::PolygonFeatures> files,
                                     const PolygonOptions& options, const Execution& execution) {
   std::vector<FeatureTable> tables(files.size());
-  for (std::size_t k = 0; k < files.size(); ++k) tables[k].is_located = are_located(files[k]);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    tables[k].is_located = are_located(files[k]);
+    tables[k].longitudes = longitudes_of(files[k]);
+  }
   if (files.empty()) return tables;
   map::PolygonFeatures all = map::joined(std::move(files));
   overlay::ConvertedFeatures converted = overlay::converted_features(all, options, execution);

@@ -26,6 +26,9 @@ PolygonOptions leniently(PolygonOptions options);
 // Returns which features have a geometry. One that was rejected has none.
 std::vector<bool> are_located(const map::PolygonFeatures& features);
 
+// Returns the longitudes of each feature.
+std::vector<LongitudeExtent> longitudes_of(const map::PolygonFeatures& features);
+
 // Converts polygons into cells.
 CellTable table_of(map::PolygonFeatures& features, const PolygonOptions& options,
                    const Execution& execution);

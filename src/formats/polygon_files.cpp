@@ -165,6 +165,7 @@ FeatureTable read_features(const FileName& file, const PolygonOptions& options,
   map::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
   FeatureTable table;
   table.is_located = formats::are_located(features);
+  table.longitudes = formats::longitudes_of(features);
   table.lines = lines_of_features(features, options);
   features.lines.clear();
   CellTable cells = formats::table_of(features, options, execution);

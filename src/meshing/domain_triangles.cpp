@@ -445,7 +445,9 @@ DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& opti
   const system::Call call(execution);
   require_polygons(domain);
   require_shares(options);
-  return TrianglesOfDomain(options, execution).run(domain);
+  DomainTriangles made = TrianglesOfDomain(options, execution).run(domain);
+  made.west_deg = domain.west_deg;
+  return made;
 }
 
 TriangleMesh triangle_mesh(const DomainTriangles& triangles) {
@@ -455,7 +457,7 @@ TriangleMesh triangle_mesh(const DomainTriangles& triangles) {
   }
   TriangleMesh mesh = triangle_mesh(triangles.mesh.nodes, {}, triangles.mesh.triangles,
                                     std::span(std::as_const(coast)));
-  mesh.positions = meshing::sound_positions(mesh);
+  mesh.positions = meshing::sound_positions(mesh, triangles.west_deg);
   return mesh;
 }
 

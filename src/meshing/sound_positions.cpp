@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "map/arc.h"
+#include "map/longitudes.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -104,11 +105,12 @@ class PositionRepair {
 
 }  // namespace
 
-std::vector<LonLat> sound_positions(const mesh::TriangleMesh& mesh) {
+std::vector<LonLat> sound_positions(const mesh::TriangleMesh& mesh, double west_deg) {
   std::vector<LonLat> positions = mesh.positions;
   if (positions.empty()) {
     positions = lonlats(mesh.points);
     for (std::size_t i = 0; i < positions.size(); ++i) {
+      positions[i].lon_deg = map::longitude_in_turn(positions[i].lon_deg, west_deg);
       positions[i] = map::shortened(positions[i], mesh.points[i]);
     }
   }

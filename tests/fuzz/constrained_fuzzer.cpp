@@ -18,6 +18,7 @@
 #include "rondel/constrained_interpolate.h"
 #include "rondel/constrained_locator.h"
 #include "rondel/delaunay.h"
+#include "rondel/longitudes.h"
 #include "rondel/polygon_triangles.h"
 #include "rondel/predicates.h"
 
@@ -190,6 +191,18 @@ void test_triangles(const CellRings& polygons) {
   }
 }
 
+// Degrees of the turn of others are in it: here of those 200 degrees to the east.
+void test_turn(const std::vector<Point>& sites, const std::vector<LonLat>& positions) {
+  LongitudeExtent given;
+  for (const LonLat& place : positions) given.include({place.lon_deg + 200, place.lon_deg + 200});
+  require(given.is_empty() == positions.empty(), "an extent without longitudes is empty");
+  const double west_deg = west_of(given);
+  for (const LonLat& place : short_lonlats(sites, west_deg)) {
+    const double from_west = place.lon_deg - west_deg;
+    require(from_west > -1e-5 && from_west < 360 + 1e-5, "longitudes are in the turn");
+  }
+}
+
 // A ring has the sides of the line along it, and one more if its ends are apart.
 void test_features(const std::vector<Point>& points) {
   if (points.empty()) return;
@@ -224,6 +237,7 @@ void test_features(const std::vector<Point>& points) {
     require(shortest[i] == usual[i] || back[i] == made.sites[i],
             "short degrees are those of a site");
   }
+  test_turn(made.sites, shortest);
   test_triangles(polygons);
 }
 

@@ -102,10 +102,11 @@ void add_constrained(nb::module_& module) {
   module.def("constraints_of_geometries", &constraints_of_geometries, nb::arg("geometries"));
   module.def(
       "short_lonlats",
-      [](const PointsIn& points) {
-        return to_array<double>(unlocked([&] { return short_lonlats(points_of(points)); }));
+      [](const PointsIn& points, double west_deg) {
+        return to_array<double>(
+            unlocked([&] { return short_lonlats(points_of(points), west_deg); }));
       },
-      nb::arg("points").noconvert());
+      nb::arg("points").noconvert(), nb::arg("west_deg"));
   module.def("check_constrained", &check_constrained_faces, nb::arg("points").noconvert(),
              nb::arg("constraints").noconvert(), nb::arg("faces").noconvert(), nb::arg("center"),
              nb::arg("threads"));

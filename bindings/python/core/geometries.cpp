@@ -28,18 +28,30 @@
 namespace rondel::python {
 namespace {
 
+// Geometries, and the least and the greatest longitude of each.
+using GeometriesOut = std::tuple<Geometries, ArrayOut<double>>;
+
 // Returns the geometries, and what is to be said of them.
-std::tuple<Geometries, std::vector<std::string>> geometries_of(const GeometriesIn& given,
-                                                               nb::handle edges, nb::handle invalid,
-                                                               unsigned threads) {
+std::tuple<GeometriesOut, std::vector<std::string>> geometries_of(const GeometriesIn& given,
+                                                                  nb::handle edges,
+                                                                  nb::handle invalid,
+                                                                  unsigned threads) {
   const PolygonOptions options = polygon_rules(edges, invalid);
   return read_geometries(given, [&](const auto& geometries) {
-    return watched_quietly(0, threads, [&](const Execution& execution) {
-      FeatureTable table = features_in(geometries, options, execution);
-      return std::tuple(Geometries{std::move(table.lines), std::move(table.polygons)},
-                        std::move(table.facts.remarks));
+    FeatureTable table = watched_quietly(0, threads, [&](const Execution& execution) {
+      return features_in(geometries, options, execution);
     });
+    return std::tuple(GeometriesOut({std::move(table.lines), std::move(table.polygons)},
+                                    to_array<double>(std::move(table.longitudes))),
+                      std::move(table.facts.remarks));
   });
+}
+
+// Returns the extent of all rows: the least and the greatest longitude of each.
+LongitudeExtent extent_of(const PairsIn& rows) {
+  LongitudeExtent all;
+  for (const LongitudeExtent& one : rows_of<LongitudeExtent>(rows)) all.include(one);
+  return all;
 }
 
 // Returns the pieces and their geometries, and how many lines and points were left out.
@@ -106,6 +118,12 @@ void add_geometries(nb::module_& module) {
              return to_array<double>(unlocked([&] { return lengths(self.lines); }));
            })
       .def("drawn_lines", &drawn_lines, nb::arg("tolerance_deg"), nb::arg("threads"));
+  module.def(
+      "west_of",
+      [](const PairsIn& given, const PairsIn& otherwise) {
+        return west_of(extent_of(given), extent_of(otherwise));
+      },
+      nb::arg("given").noconvert(), nb::arg("otherwise").noconvert());
   module.def("geometries_of", &geometries_of, nb::arg("given"), nb::arg("edges").none(),
              nb::arg("invalid").none(), nb::arg("threads"));
   module.def(

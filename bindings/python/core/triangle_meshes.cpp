@@ -120,7 +120,7 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
     const Geometries& coast, const Geometries* area, const Geometries& lines,
     const NumbersIn& spacings, std::size_t steps, double gradient,
     const std::optional<double>& tolerance, double smallest_angle, double fill_narrow,
-    double smallest_part, unsigned threads, const nb::object& listener) {
+    double smallest_part, double west_deg, unsigned threads, const nb::object& listener) {
   mesh::TrianglesOptions options;
   options.refine.spacing = size_of(rows_of<double>(spacings), steps, gradient);
   options.refine.smallest_angle_deg = smallest_angle;
@@ -128,6 +128,7 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
   options.smallest_part = smallest_part;
   options.tolerance = tolerance;
   mesh::MeshDomain domain;
+  domain.west_deg = west_deg;
   if (coast.size() > 0) domain.coast.push_back(coast);
   if (area != nullptr) domain.area.push_back(*area);
   if (lines.size() > 0) domain.lines.push_back(lines);
@@ -162,8 +163,8 @@ void add_triangle_meshes(nb::module_& module) {
   module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area").none(),
              nb::arg("lines"), nb::arg("spacings").noconvert(), nb::arg("steps"),
              nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("smallest_angle"),
-             nb::arg("fill_narrow"), nb::arg("smallest_part"), nb::arg("threads"),
-             nb::arg("progress").none());
+             nb::arg("fill_narrow"), nb::arg("smallest_part"), nb::arg("west_deg"),
+             nb::arg("threads"), nb::arg("progress").none());
   module.def("read_triangles", &triangles_of_file, nb::arg("path"), nb::arg("format"),
              nb::arg("threads"));
 }

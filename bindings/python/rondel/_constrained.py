@@ -68,9 +68,12 @@ class ConstrainedDelaunay(
         geometries: IntArray | None,
         *,
         is_split: bool,
+        west_deg: float = -180.0,
     ) -> ConstrainedDelaunay:
         self = cls.__new__(cls)
-        self._keep(built, points, constraints, polygons, geometries, is_split=is_split)
+        self._keep(
+            built, points, constraints, polygons, geometries, is_split=is_split, west_deg=west_deg
+        )
         return self
 
     def _keep(
@@ -82,6 +85,7 @@ class ConstrainedDelaunay(
         geometries: IntArray | None,
         *,
         is_split: bool,
+        west_deg: float,
     ) -> None:
         has_added = len(points) < built.triangulation.num_sites
         Mesh.__init__(
@@ -93,6 +97,7 @@ class ConstrainedDelaunay(
         self._polygons = polygons
         self._geometries = None if geometries is None else frozen(geometries)
         self._is_split = is_split
+        self._west_deg = west_deg
         self._degrees: FloatArray | None = None
 
     def __getstate__(self) -> dict[str, Any]:
@@ -103,6 +108,7 @@ class ConstrainedDelaunay(
             "built": arrays,
             "given": (self._num_given, self._constraints, self._polygons, self._geometries),
             "is_split": self._is_split,
+            "west_deg": self._west_deg,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -116,6 +122,7 @@ class ConstrainedDelaunay(
             Lists(*polygons),
             geometries,
             is_split=state["is_split"],
+            west_deg=state["west_deg"],
         )
 
     @property
@@ -126,10 +133,10 @@ class ConstrainedDelaunay(
     @cached_property
     def lonlat(self) -> FloatArray:
         """Ndarray of float64, shape (n, 2): longitudes and latitudes of the points in degrees; of
-        geometries as they have them, where doubles tell.
+        geometries as they have them, where doubles tell, from -180 to 180 or in their turn.
         """
         if self._geometries is not None:
-            return frozen(_core.short_lonlats(self.points))
+            return frozen(_core.short_lonlats(self.points, self._west_deg))
         return frozen(degrees_of(self.points, self._triangulation.center))
 
     @property
@@ -388,7 +395,10 @@ def constrained_delaunay(
         built = _core.constrained_delaunay(sites, constraints, origin, is_split, number, progress)
     except CrossingConstraints as error:
         raise _crossing_of(given, owners, error) from None
-    return ConstrainedDelaunay._of(built, sites, constraints, rows, owners, is_split=is_split)
+    west_deg = _core.west_of(given.longitudes, np.empty((0, 2)))
+    return ConstrainedDelaunay._of(
+        built, sites, constraints, rows, owners, is_split=is_split, west_deg=west_deg
+    )
 
 
 def check_constrained(

@@ -32,7 +32,7 @@ from ._geometries import (
 from ._pickled import with_arrays
 from ._regions import Regions
 from ._taken_apart import shapely_array, taken_apart
-from ._types import ArrayLike, BoolArray, IntArray
+from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 # A function of the library that gets geometries, in arrays or as GeoJSON. It returns its result and
 # remarks.
@@ -66,6 +66,9 @@ class Operand:
         The geometries of all arguments if any of them has lines or points.
     first : int
         The cell of the first polygon.
+    longitudes : ndarray, shape (k, 2)
+        The least and the greatest longitude of each geometry as given; infinities where it has
+        none, and no rows for cells.
 
     """
 
@@ -80,6 +83,7 @@ class Operand:
     unchecked: CellSet | None = None
     shared: _core.Geometries | None = None
     first: int = 0
+    longitudes: FloatArray = field(default_factory=lambda: np.empty((0, 2)))
 
     @property
     def is_single(self) -> bool:
@@ -161,12 +165,13 @@ def operands(
     for operand in made:
         require_sound(operand, invalid, threads)
     read = [operand for operand in made if not operand.is_of_cells]
-    geometries = _read(read, edges, invalid, as_threads(threads))
+    geometries, longitudes = _read(read, edges, invalid, as_threads(threads))
     has_lines = len(geometries.lines) > 1
     first = 0
     for operand in read:
         operand.cells, operand.first = geometries.polygons, first
         operand.shared = geometries if has_lines else None
+        operand.longitudes = longitudes[first : first + operand.num_polygons]
         first += operand.num_polygons
     return made
 
@@ -284,10 +289,13 @@ def have_lines(*given: Operand) -> bool:
     return any(operand.shared is not None for operand in given)
 
 
-def _read(read: list[Operand], edges: Edges, invalid: Invalid, threads: int) -> _core.Geometries:
+def _read(
+    read: list[Operand], edges: Edges, invalid: Invalid, threads: int
+) -> tuple[_core.Geometries, FloatArray]:
+    """The geometries, and the extent of the longitudes of each."""
     if not any(operand.num_polygons for operand in read):
-        return _core.Geometries()
-    made: _core.Geometries = told_by_core(
+        return _core.Geometries(), np.empty((0, 2))
+    made: tuple[_core.Geometries, FloatArray] = told_by_core(
         read,
         edges,
         lambda given: _core.geometries_of(given, edges, invalid, threads),

@@ -387,7 +387,9 @@ def triangles(
     Returns
     -------
     TriangleMesh
-        The mesh; sides of `coast` are land or islands of its border, others are open.
+        The mesh; sides of `coast` are land or islands of its border, others are open. Its
+        longitudes are from -180 to 180, or in the turn of those given, as from 0 to 360: those of
+        `area` if it has some, else of `coast` and `lines`.
 
     Raises
     ------
@@ -420,13 +422,16 @@ def triangles(
     given = {"coast": coast, "area": area, "lines": lines}
     present = {name: value for name, value in given.items() if value is not None}
     parts = dict.fromkeys(given, _core.Geometries())
-    if present:
-        for operand in operands(present, edges, threads, invalid):
-            parts[operand.name] = operand.geometries()
-    elif spacing is None:
+    found = operands(present, edges, threads, invalid) if present else []
+    for operand in found:
+        parts[operand.name] = operand.geometries()
+    if not present and spacing is None:
         raise TypeError("triangles() needs coast, area or spacing")
+    nothing = np.empty((0, 2))
     steps = raster_steps if callable(spacing) else 1
     within = parts.pop("area")
+    of_area = [operand.longitudes for operand in found if operand.name == "area"]
+    of_others = [operand.longitudes for operand in found if operand.name != "area"]
     made, too_small = _core.triangles_of_domain(
         **parts,
         # A missing area is the sphere, and an area without features is none.
@@ -438,6 +443,9 @@ def triangles(
         smallest_angle=float(smallest_angle),
         fill_narrow=float(fill_narrow),
         smallest_part=float(smallest_part),
+        west_deg=_core.west_of(
+            *(np.concatenate([nothing, *rows]) for rows in (of_area, of_others))
+        ),
         threads=as_threads(threads),
         progress=progress,
     )
@@ -449,13 +457,13 @@ def triangles(
     mesh = TriangleMesh._of(made)
     if depths is None:
         return mesh
-    found = as_vector(depths(mesh.points), "depths", len(mesh.points))
-    for node in np.flatnonzero(~np.isfinite(found))[:1]:
+    known = as_vector(depths(mesh.points), "depths", len(mesh.points))
+    for node in np.flatnonzero(~np.isfinite(known))[:1]:
         lon, lat = mesh.lonlat[node]
         raise InvalidInput(
-            f"depths are {found[node]} at node {node}, at longitude {lon:.6g}, latitude {lat:.6g}, "
+            f"depths are {known[node]} at node {node}, at longitude {lon:.6g}, latitude {lat:.6g}, "
             "where a finite number is needed",
             int(node),
         )
-    made.depths = found
+    made.depths = known
     return mesh

@@ -231,3 +231,26 @@ def test_meshio_reads_and_writes_the_same(mesh, form, tmp_path):
     mine.point_data.clear()
     mine.write(tmp_path / "theirs.msh", file_format="gmsh22", binary=False)
     same(read_triangles(tmp_path / "theirs.msh"), mesh, ("points", "triangles"))
+
+
+@pytest.mark.parametrize("west", [170.0, -190.0, 350.0, 10.0])
+@pytest.mark.parametrize("kind", ["shapely", "geojson"])
+def test_longitudes_are_in_the_turn_of_the_input(west, kind):
+    shapely = pytest.importorskip("shapely")
+    box = shapely.box(west, -5, west + 30, 5)
+    island = shapely.box(west + 12 - 360, -2, west + 15 - 360, 2)
+    area, coast = (
+        (box, island) if kind == "shapely" else map(shapely.geometry.mapping, (box, island))
+    )
+    mesh = rondel.mesh.triangles(coast, area=area, spacing=math.radians(3))
+    assert west - 1e-12 < mesh.lonlat[:, 0].min()
+    assert mesh.lonlat[:, 0].max() < west + 30 + 1e-12
+    assert [west + 30, 5] in mesh.lonlat.tolist()
+    # Without an area, those of the coast decide.
+    around = rondel.mesh.triangles(box, spacing=math.radians(20))
+    turn = -180 if west == 10 else 0 if west == 170 else west
+    assert turn - 1e-12 < around.lonlat[:, 0].min()
+    assert around.lonlat[:, 0].max() < turn + 360 + 1e-12
+    made = rondel.constrained_delaunay(area)
+    assert (made.lonlat[:, 0].min(), made.lonlat[:, 0].max()) == (west, west + 30)
+    assert np.array_equal(pickle.loads(pickle.dumps(made)).lonlat, made.lonlat)

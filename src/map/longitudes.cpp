@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "map/longitudes.h"
+
+#include <cmath>
+
+#include "rondel/longitudes.h"
+
+namespace rondel {
+namespace map {
+
+constexpr double lon_rounding_deg = 1e-6;
+
+double longitude_in_turn(double lon_deg, double west_deg) {
+  if (west_deg == -180) return lon_deg;
+  const double turns = std::ceil((west_deg - lon_rounding_deg - lon_deg) / 360);
+  return turns == 0 ? lon_deg : lon_deg + 360 * turns;
+}
+
+}  // namespace map
+
+double west_of(const LongitudeExtent& given, const LongitudeExtent& otherwise) {
+  const LongitudeExtent& all = given.is_empty() ? otherwise : given;
+  if (all.is_empty()) return -180;
+  const auto is_in_turn_from = [&](double west_deg) {
+    return all.least >= west_deg - map::lon_rounding_deg &&
+           all.greatest <= west_deg + 360 + map::lon_rounding_deg;
+  };
+  for (const double west_deg : {-180.0, 0.0, all.least}) {
+    if (is_in_turn_from(west_deg)) return west_deg;
+  }
+  return -180;
+}
+
+}  // namespace rondel
