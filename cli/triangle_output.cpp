@@ -35,6 +35,18 @@ void tell_of_pinched(const std::string& file, const mesh::TriangleMesh& mesh) {
                         " more have several gaps between their triangles, which models refuse"});
 }
 
+// Tells the names of what a file has for its sites or features and OUTPUT does not have, the first of
+// many, unless OUTPUT is indices of sites.
+void tell_of_left_out(const CommonOptions& common, const std::string& file, const char* what,
+                      const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  if (names.empty() || common.format() == "npy") return;
+  std::string text = what + std::string(" that the output does not have: ") + names.front();
+  for (std::size_t k = 1; k < std::min(names.size(), most); ++k) text += ", " + names[k];
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+  tell(file, {text});
+}
+
 }  // namespace
 
 bool is_triangle_input(const CommonOptions& common) {
@@ -93,7 +105,7 @@ void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf
 
 std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table) {
   std::vector<double> depths;
-  std::string left_out;
+  std::vector<std::string> left_out;
   const bool has_all = !table.columns.empty() &&
                        table.columns.front().ends.size() == table.sites.size() &&
                        mesh::can_write_triangle_mesh(common.target());
@@ -102,7 +114,7 @@ std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable
     if (are_depths && has_all && depths.empty()) {
       depths = column_values(table, name, "--output");
     } else {
-      left_out += (left_out.empty() ? "" : ", ") + name;
+      left_out.push_back(name);
     }
   }
   const auto missing = std::ranges::find_if(depths, [](double depth) { return std::isnan(depth); });
@@ -110,10 +122,14 @@ std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable
     throw FileError(table.where(static_cast<std::size_t>(missing - depths.begin())) +
                     ": the site has no depth");
   }
-  if (!left_out.empty() && common.format() != "npy") {
-    tell(table.name, {"columns that the output does not have: " + left_out});
-  }
+  tell_of_left_out(common, table.name, "columns", left_out);
   return depths;
+}
+
+void tell_of_properties(const CommonOptions& common, const CellFacts& facts) {
+  std::vector<std::string> names;
+  for (const Column& column : facts.columns) names.push_back(column.name);
+  tell_of_left_out(common, facts.name, "properties", names);
 }
 
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh) {

@@ -57,6 +57,10 @@ void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf
 /// \throws FileError for a cell of that column that is no number
 std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table);
 
+/// Tells the names of the properties of features, which OUTPUT does not have, unless it is indices of
+/// sites; of many, the first 12.
+void tell_of_properties(const CommonOptions& common, const CellFacts& facts);
+
 /// Returns the numbers of nodes, triangles and segments.
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh);
 /// Returns the same for people: "5 nodes, 4 triangles; border: 1 open, 1 land, 0 island".

@@ -62,7 +62,9 @@ std::vector<NamedFile> files_read(const MeshTrianglesOptions& options) {
   return files;
 }
 
-mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Execution& execution) {
+// `facts` gets what is known of each file.
+mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Execution& execution,
+                             std::vector<CellFacts>& facts) {
   std::vector<FileName> files;
   for (const auto* paths : {&options.coast, &options.area, &options.lines}) {
     for (const std::string& path : *paths) files.push_back({path, {}});
@@ -74,6 +76,7 @@ mesh::MeshDomain read_domain(const MeshTrianglesOptions& options, const Executio
   LongitudeExtent of_others;
   for (std::size_t k = 0; k < tables.size(); ++k) {
     tell(tables[k].facts.name, tables[k].facts.remarks);
+    facts.push_back(std::move(tables[k].facts));
     auto& part = k < options.coast.size()                         ? domain.coast
                  : k < options.coast.size() + options.area.size() ? domain.area
                                                                   : domain.lines;
@@ -171,7 +174,8 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   wanted.fill_narrow = options.fill_narrow;
   wanted.smallest_part = options.smallest_part;
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
-  const mesh::MeshDomain domain = read_domain(options, execution);
+  std::vector<CellFacts> facts;
+  const mesh::MeshDomain domain = read_domain(options, execution, facts);
   wanted.refine.spacing = spacings_of(options.sizes, execution, corners_of_area(domain));
   mesh::DomainTriangles made;
   mesh::TriangleMesh result;
@@ -188,6 +192,7 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
     write_triangles_of(options.common, options.netcdf, result, options.common.output, job);
   });
   report_triangles(options, made, result, job);
+  for (const CellFacts& file : facts) tell_of_properties(options.common, file);
   return done;
 }
 

@@ -44,12 +44,13 @@ struct Plan {
   CompressedRows<Index> polygons;  // the sides of each feature's, which are constraints
   std::vector<std::string> names;  // of each feature, for messages
   double west_deg = -180;          // where the turn of the longitudes begins
+  CellFacts facts;                 // of the features
 };
 
 // Reads features. Throws FileError.
 Plan plan_of_features(const TriangulateOptions& options, const Execution& execution) {
   const FileName file = options.common.source();
-  const FeatureTable features =
+  FeatureTable features =
       std::move(read_features_together({&file, 1}, options.read, execution).front());
   tell(features.facts.name, features.facts.remarks);
   Plan plan;
@@ -72,6 +73,7 @@ Plan plan_of_features(const TriangulateOptions& options, const Execution& execut
   plan.table.positions = short_lonlats(plan.table.sites, plan.west_deg);
   plan.edges.constraints = std::move(made.constraints);
   plan.polygons = std::move(made.polygons);
+  plan.facts = std::move(features.facts);
   return plan;
 }
 
@@ -209,6 +211,7 @@ ExitStatus run_triangulate(TriangulateOptions options) {
                  count(result.edges.size(), "edge", "edges") + "\nwrote " +
                  count(num_faces, "face", "faces") + " to " + options.common.output + " in " +
                  text_of_seconds(seconds) + '\n');
+  tell_of_properties(options.common, plan.facts);
   return done;
 }
 

@@ -314,12 +314,15 @@ class FeaturesOfGdal(Folder):
                     for i, geometry in enumerate(geometries)]
         (self.folder / "f.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
 
-    def same(self, *arguments, endings=ENDINGS):
+    # GDAL gives each shapefile a column.
+    MESHES_TELL = {"shp": "rondel: f.shp: properties that the output does not have: FID\n"}
+
+    def same(self, *arguments, endings=ENDINGS, told=None):
         """The output of a command whose arguments have {} where a file is named."""
         found = []
         for ending in ("geojson", *endings):
             done = self.run_tool(*[argument.format(f"f.{ending}") for argument in arguments])
-            self.assertEqual((done.returncode, done.stderr), (0, ""), ending)
+            self.assertEqual((done.returncode, done.stderr), (0, (told or {}).get(ending, "")), ending)
             output = arguments[arguments.index("-o") + 1]
             found.append((self.folder / output).read_bytes())
         for ending, text in zip(endings, found[1:]):
@@ -330,10 +333,10 @@ class FeaturesOfGdal(Folder):
         frame = geopandas.read_file(self.folder / "f.geojson")
         for ending in self.ENDINGS:
             frame.to_file(self.folder / f"f.{ending}", engine="pyogrio")
-        self.same("mesh", "triangles", "--coast", "{}", "--spacing", "800", "-o", "o.14")
-        self.same("triangulate", "{}", "--inside", "-o", "o.14")
+        self.same("mesh", "triangles", "--coast", "{}", "--spacing", "800", "-o", "o.14", told=self.MESHES_TELL)
+        self.same("triangulate", "{}", "--inside", "-o", "o.14", told=self.MESHES_TELL)
         self.same("mesh", "scvt", "-n", "500", "--fixed", "{}", "-o", "o.csv")
-        self.same("mesh", "triangles", "--area", "{}", "--spacing", "800", "-o", "o.14")
+        self.same("mesh", "triangles", "--area", "{}", "--spacing", "800", "-o", "o.14", told=self.MESHES_TELL)
 
     def test_have_holes_parts_and_columns(self):
         holes = shapely.box(0, 0, 9, 9) - shapely.box(1, 1, 2, 2) - shapely.box(3, 3, 4.1, 4.7)

@@ -98,6 +98,23 @@ class Properties(Told):
         self.assertEqual([feature.get("id") for feature in found], [2**53 + 1, None])
         self.assertEqual([feature["properties"]["id"] for feature in found], [None, "own"])
 
+    def test_that_meshes_do_not_have_are_told(self):
+        self.write("sea.geojson", box(0, 0, 20, 10, {"basin": "A", "kind": 1}))
+        self.write("island.geojson", box(5, 4, 7, 6, {f"p{k:02}": k for k in range(20)}))
+        self.write("bare.geojson", box(0, 0, 20, 10, {}))
+        names = ", ".join(f"p{k:02}" for k in range(12))
+        lost = "properties that the output does not have:"
+        of_island = f"rondel: island.geojson: {lost} {names} and 8 more\n"
+        of_sea = f"rondel: sea.geojson: {lost} basin, kind\n"
+        mesh = ("mesh", "triangles", "-o", "mesh.14", "--spacing", "500", "--area")
+        self.succeed(*mesh, "sea.geojson", "--coast", "island.geojson", told=of_island + of_sea)
+        self.succeed(*mesh, "bare.geojson")
+        message = "sea.geojson: nothing is left for triangles: the land covers the area"
+        self.refuse(1, message, *mesh, "sea.geojson", "--coast", "sea.geojson")
+        for ending in ("14", "ply", "geojson"):
+            self.succeed("triangulate", "sea.geojson", "-o", f"mesh.{ending}", told=of_sea)
+        self.succeed("triangulate", "sea.geojson", "-o", "faces.npy")
+
     def test_with_a_zero_are_refused(self):
         fault = "has the character \\u0000, at which texts end in other formats"
         self.write("p.geojson", point(0, 0, {"a": "x"}), point(9, 9, {"a": "x\0y"}))
