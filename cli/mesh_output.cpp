@@ -198,7 +198,8 @@ void add_mesh_report_option(CLI::App& parser, std::string& report, const std::st
   parser
       .add_option(names, report,
                   "Where to write the report of 'rondel mesh quality': .svg draws histograms\n"
-                  "and a map of the worst cells, .txt is the text, other endings are JSON")
+                  "and a map of the worst cells, or of triangles; .txt is the text, other "
+                  "endings\nare JSON")
       ->type_name("FILE");
 }
 

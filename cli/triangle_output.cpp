@@ -132,6 +132,17 @@ void tell_of_properties(const CommonOptions& common, const CellFacts& facts) {
   tell_of_left_out(common, facts.name, "properties", names);
 }
 
+void write_triangle_report(const std::string& path, const mesh::TriangleMesh& mesh) {
+  if (path.empty()) return;
+  const std::string format = format_of(path);
+  if (format == "svg") {
+    write_file(path, mesh::quality_picture(mesh));
+  } else {
+    write_file(path, format == "txt" ? text_of_triangles(mesh) + '\n'
+                                     : json_of_triangles(mesh).dump(2) + '\n');
+  }
+}
+
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh) {
   nlohmann::ordered_json segments;
   for (const mesh::BoundaryKind kind : all_kinds) {

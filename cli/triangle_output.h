@@ -61,6 +61,10 @@ std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable
 /// sites; of many, the first 12.
 void tell_of_properties(const CommonOptions& common, const CellFacts& facts);
 
+/// Writes the file of --report, unless there is none, in the format of its ending: .svg is a picture,
+/// .txt is the text, and others are JSON.
+void write_triangle_report(const std::string& path, const mesh::TriangleMesh& mesh);
+
 /// Returns the numbers of nodes, triangles and segments.
 nlohmann::ordered_json json_of_triangles(const mesh::TriangleMesh& mesh);
 /// Returns the same for people: "5 nodes, 4 triangles; border: 1 open, 1 land, 0 island".

@@ -59,6 +59,7 @@ ExitStatus convert_triangles(MeshConvertOptions options) {
   if (written.radius) set_radius(mesh, *written.radius);
   require_least_depth(options.least_depth, common.input, mesh);
   write_triangles_of(common, written.netcdf, mesh, common.input, job);
+  write_triangle_report(written.report, mesh);
   nlohmann::ordered_json json = json_of_triangles(mesh);
   const Seconds seconds = job.seconds();
   json["seconds"] = {{"write", seconds.write}, {"total", seconds.total}};
@@ -92,7 +93,7 @@ Command add_mesh_convert_command(CLI::App& group) {
       "--allow-zero-edges", options->allow_zero_edges,
       "Accept sites on one circle, whose cells meet in one point: in MPAS\n"
       "there are edges of length 0, and models divide by it; other formats have one corner");
-  for (const char* name : {"--graph", "--report", "--allow-zero-edges"}) {
+  for (const char* name : {"--graph", "--allow-zero-edges"}) {
     require_effect(
         written.common, parser->get_option(name),
         [&written] { return !are_triangles(written.common); }, "on triangles");

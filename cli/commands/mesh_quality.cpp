@@ -96,10 +96,10 @@ void require_names(const MeshQualityOptions& options, bool are_triangles) {
 
 // Prints the numbers of triangles.
 ExitStatus report_triangles(const MeshQualityOptions& options) {
-  if (!options.report.empty()) throw UsageError("--report has no effect on triangles");
   require_names(options, true);
   Job job(options.common);
   const mesh::TriangleMesh mesh = read_triangles_of(options.common, job);
+  write_triangle_report(options.report, mesh);
   const nlohmann::ordered_json json = json_of_triangles(mesh);
   job.report(json.dump(2) + '\n', text_of_triangles(mesh) + '\n');
   require_met(options, [&](const std::string& name) {
@@ -153,7 +153,8 @@ Command add_mesh_quality_command(CLI::App& group) {
       "Examples:\n"
       "  rondel mesh quality sites.csv\n"
       "  rondel mesh quality mesh.nc --require min-dv-dc=0.05 --require num-obtuse=0\n"
-      "  rondel mesh quality fort.14 --require min-angle=25 --require min-edge-km=1");
+      "  rondel mesh quality fort.14 --require min-angle=25 --require min-edge-km=1\n"
+      "  rondel mesh quality fort.14 --report fort.svg");
   return {parser, [options] { return run_mesh_quality(*options); }};
 }
 

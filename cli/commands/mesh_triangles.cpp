@@ -22,6 +22,7 @@
 #include "command.h"
 #include "files_of_command.h"
 #include "job.h"
+#include "mesh_output.h"
 #include "mesh_spacing.h"
 #include "options.h"
 #include "report.h"
@@ -49,6 +50,7 @@ struct MeshTrianglesOptions {
   std::string depth;      // --depth: positive down
   std::string elevation;  // --elevation: positive up
   std::optional<double> least_depth;
+  std::string report;  // --report; empty: not written
   NetcdfOptions netcdf;
 };
 
@@ -163,7 +165,8 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
 // Throws FileError for files that cannot be read or written, and UsageError.
 ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   require_output(options.common, mesh::can_write_triangle_mesh(options.common.target()),
-                 std::string(triangle_mesh_endings) + " .nc", files_read(options));
+                 std::string(triangle_mesh_endings) + " .nc", files_read(options),
+                 {{"--report", options.report}});
   if (options.coast.empty() && options.area.empty() && options.sizes.spacing.empty()) {
     throw UsageError("--coast, --area or --spacing says what triangles there shall be");
   }
@@ -190,6 +193,7 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   });
   job.time(Stage::write, [&] {
     write_triangles_of(options.common, options.netcdf, result, options.common.output, job);
+    write_triangle_report(options.report, result);
   });
   report_triangles(options, made, result, job);
   for (const CellFacts& file : facts) tell_of_properties(options.common, file);
@@ -305,6 +309,7 @@ Command add_mesh_triangles_command(CLI::App& group) {
   add_netcdf_options(*parser, options->common, options->netcdf, [given = options.get()] {
     return if_of_format(given->common.target(), {"nc", "nc4", "ugrid"});
   });
+  add_mesh_report_option(*parser, options->report);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -129,6 +130,15 @@ struct TriangleQuality {
 
 /// Returns the extreme edges and the smallest angle of a mesh; zeros if it has no triangles.
 RONDEL_API TriangleQuality triangle_quality(const TriangleMesh& mesh);
+
+/// Returns a picture in SVG, of at most a million bytes: histograms of the smallest angles, of all
+/// angles and of the sides, and a map of the triangles in colors of their smallest angle, with circles
+/// around the `num_worst` smallest ones, whose titles name triangle and place. Meshes within 90
+/// degrees of their middle are drawn in Lambert's azimuthal equal-area projection, others in longitude
+/// and latitude. Of more than 8000 triangles each square of 3 pixels has the color of the smallest
+/// angle in it.
+/// \throws InvalidInput as require_valid() does, and if there are no triangles
+RONDEL_API std::string quality_picture(const TriangleMesh& mesh, std::size_t num_worst = 20);
 
 /// Returns the nodes with several gaps between their triangles, ascending: SCHISM, ADCIRC and FESOM
 /// refuse them.

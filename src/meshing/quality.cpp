@@ -13,12 +13,15 @@
 #include "exact/vector.h"
 #include "meshing/cell_shape.h"
 #include "meshing/consistency.h"
+#include "meshing/picture_parts.h"
 #include "rondel/mesh_quality.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
 namespace rondel::mesh {
 namespace {
+
+using meshing::count_in;
 
 constexpr std::size_t quality_grain = 4096;
 constexpr std::size_t histogram_steps = 80;
@@ -36,14 +39,6 @@ void keep_most(Extremum& worst, double value, std::size_t where) {
 // Returns an empty histogram of [0, high].
 Histogram histogram(double high) {
   return {0, high, std::vector<std::uint64_t>(histogram_steps, 0)};
-}
-// Counts a value in its step; values beyond the ends are counted in the first or last step.
-void count_in(Histogram& histogram, double value) {
-  const double step = (value - histogram.low) / (histogram.high - histogram.low) *
-                      static_cast<double>(histogram.counts.size());
-  const double last = static_cast<double>(histogram.counts.size() - 1);
-  // NaN is counted in the first step.
-  ++histogram.counts[step > 0 ? static_cast<std::size_t>(std::min(step, last)) : 0];
 }
 void add_to(Histogram& sum, const Histogram& part) {
   for (std::size_t i = 0; i < sum.counts.size(); ++i) sum.counts[i] += part.counts[i];

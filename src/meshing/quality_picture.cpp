@@ -4,58 +4,28 @@
 // Draws a report as SVG: histograms above, a map of the worst cells below.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <numeric>
 
 #include "exact/angles.h"
+#include "meshing/picture_parts.h"
 #include "rondel/mesh_quality.h"
 
 namespace rondel::mesh {
 namespace {
 
+using meshing::bars;
+using meshing::begin_picture;
+using meshing::fixed;
+using meshing::map_top;
+using meshing::margin;
+using meshing::text_at;
+
 // Positions are in pixels from the corner at the top left; y grows downward.
-constexpr double picture_width = 960;
-constexpr double picture_height = 760;
-constexpr double margin = 20;
-constexpr double histogram_height = 180;
-constexpr double histogram_top = 40;
-constexpr double map_top = 280;
 constexpr double map_width = 900;
 constexpr double map_height = map_width / 2;
-
-// Returns the number with two decimals.
-std::string fixed(double value) {
-  std::array<char, 32> digits;
-  std::snprintf(digits.data(), digits.size(), "%.2f", value);
-  return digits.data();
-}
-
-std::string text_at(double x, double y, const std::string& text) {
-  return "<text x=\"" + fixed(x) + "\" y=\"" + fixed(y) + "\">" + text + "</text>\n";
-}
-
-// Returns the bars of a histogram with its title.
-std::string bars(const Histogram& histogram, double left, const std::string& title) {
-  const double width = (picture_width - 4 * margin) / 3;
-  const double step = width / static_cast<double>(histogram.counts.size());
-  const auto most = static_cast<double>(*std::ranges::max_element(histogram.counts));
-  const double bottom = histogram_top + histogram_height;
-  std::string svg = text_at(left, histogram_top - 10, title);
-  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    if (histogram.counts[i] == 0) continue;
-    const double height =
-        std::max(1.0, histogram_height * static_cast<double>(histogram.counts[i]) / most);
-    svg += "<rect x=\"" + fixed(left + step * static_cast<double>(i)) + "\" y=\"" +
-           fixed(bottom - height) + "\" width=\"" + fixed(step) + "\" height=\"" + fixed(height) +
-           "\"/>\n";
-  }
-  svg += "<path d=\"M" + fixed(left) + ' ' + fixed(bottom) + 'h' + fixed(width) + "\"/>\n";
-  svg += text_at(left, bottom + 16, fixed(histogram.low));
-  return svg + text_at(left + width - 30, bottom + 16, fixed(histogram.high));
-}
+constexpr double picture_height = 760;
 
 // Returns the cells with the largest values (sign 1) or smallest (sign -1); of equals the lower
 // number comes first.
@@ -108,18 +78,10 @@ std::string map_lines() {
 std::string quality_picture(const VoronoiMesh& arrays, const Quality& quality,
                             std::size_t num_worst, const Execution& execution) {
   const CellQuality cells = cell_quality(arrays, execution);
-  const double third = (picture_width - margin) / 3;
-  std::string svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width=")" + fixed(picture_width) +
-                    R"(" height=")" + fixed(picture_height) +
-                    R"(" font-family="sans-serif" font-size="12">)"
-                    "\n"
-                    R"(<rect width="100%" height="100%" fill="white"/>)"
-                    "\n"
-                    R"(<g fill="#456" stroke="none">)"
-                    "\n";
-  svg += bars(quality.angles_deg, margin, "angles of triangles, degrees");
-  svg += bars(quality.edge_ratios, margin + third, "dv / dc of edges");
-  svg += bars(quality.spacings, margin + 2 * third, "spacing over its median");
+  std::string svg = begin_picture(picture_height);
+  svg += bars(quality.angles_deg, 0, "angles of triangles, degrees");
+  svg += bars(quality.edge_ratios, 1, "dv / dc of edges");
+  svg += bars(quality.spacings, 2, "spacing over its median");
   svg += text_at(margin, map_top - 12,
                  "the worst cells: center of mass (red), short edge (blue), gradient (green)");
   svg += "</g>\n" + map_lines();

@@ -69,7 +69,7 @@ COMMANDS = {
     "mesh triangles": (
         "--spacing {--spacing}",
         ["--spacing", "--refine", "--coast", "--area", "--lines", "--depth", "--elevation"],
-        {"--output": ".nc"},
+        {"--output": ".nc", "--report": ""},
     ),
     "mesh icosahedral": ("1", [], {"--output": ".nc", "--graph": "", "--report": ""}),
     "mesh points": (

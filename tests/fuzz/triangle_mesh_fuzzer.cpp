@@ -62,6 +62,10 @@ void use_mesh(const TriangleMesh& mesh) {
   const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
   require(quality.shortest_edge <= quality.longest_edge && quality.smallest_angle_deg < 60.01,
           "no triangle has larger angles alone");
+  if (!mesh.triangles.empty()) {
+    const std::string picture = mesh::quality_picture(mesh, 3);
+    require(picture.size() < 1'000'000 && picture.find("nan") == std::string::npos, "a picture");
+  }
   if (!mesh.depths.empty()) {
     mesh::TriangleMesh deep = mesh;
     mesh::deepen(deep, 5);

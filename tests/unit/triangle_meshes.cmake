@@ -8,4 +8,5 @@ rondel_add_test(triangle_mesh_test
   meshing/domain_triangles_test.cpp
   meshing/sound_positions_test.cpp
   meshing/triangle_meshes.cpp
+  meshing/triangle_picture_test.cpp
   LIBS rondel_geo rondel_test_support)

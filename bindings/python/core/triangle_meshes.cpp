@@ -155,6 +155,12 @@ void add_triangle_meshes(nb::module_& module) {
     const mesh::TriangleQuality quality = mesh::triangle_quality(mesh);
     return std::tuple(quality.smallest_angle_deg, quality.shortest_edge, quality.longest_edge);
   });
+  type.def(
+      "quality_picture",
+      [](const TriangleMesh& mesh, std::size_t num_worst) {
+        return unlocked([&] { return mesh::quality_picture(mesh, num_worst); });
+      },
+      nb::arg("num_worst"));
   type.def("write", &write_triangle_file, nb::arg("path"), nb::arg("format"), nb::arg("threads"));
   module.def("mesh_of_triangles", &mesh_of_triangles, nb::arg("points").noconvert(),
              nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),

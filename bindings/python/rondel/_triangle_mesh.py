@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import pathlib
 import warnings
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -188,6 +189,21 @@ class TriangleMesh:
     def quality(self) -> TriangleQuality:
         """TriangleQuality: the smallest angle and the extreme edges."""
         return TriangleQuality(*self._arrays.quality())
+
+    def quality_picture(self, path: Path, *, num_worst: int = 20) -> None:
+        """Draws histograms and a map of the triangles in colors of their smallest angle as an SVG.
+
+        Parameters
+        ----------
+        path : path_like
+            The file to write.
+        num_worst : int, optional
+            The number of smallest angles that get a circle, whose title names triangle and place;
+            by default 20.
+
+        """
+        text = self._arrays.quality_picture(num_worst)
+        pathlib.Path(as_name(path)).write_text(text, encoding="utf-8")
 
     plot = plot_triangle_mesh
 

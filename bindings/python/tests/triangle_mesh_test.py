@@ -4,6 +4,7 @@
 
 import math
 import pickle
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -231,6 +232,15 @@ def test_meshio_reads_and_writes_the_same(mesh, form, tmp_path):
     mine.point_data.clear()
     mine.write(tmp_path / "theirs.msh", file_format="gmsh22", binary=False)
     same(read_triangles(tmp_path / "theirs.msh"), mesh, ("points", "triangles"))
+
+
+def test_pictures_are_svg(mesh, tmp_path):
+    mesh.quality_picture(tmp_path / "mesh.svg", num_worst=7)
+    root = ElementTree.parse(tmp_path / "mesh.svg").getroot()
+    assert root.tag == "{http://www.w3.org/2000/svg}svg"
+    titles = [title.text for title in root.iter("{http://www.w3.org/2000/svg}title")]
+    assert len(titles) == 7
+    assert f": {mesh.quality.smallest_angle:.2f} degrees, at longitude " in titles[0]
 
 
 @pytest.mark.parametrize("west", [170.0, -190.0, 350.0, 10.0])
