@@ -45,6 +45,7 @@ struct MeshTrianglesOptions {
   ScvtFiles sizes;  // --spacing --refine --gradient, and how polygons are read
   double angle = mesh::RefineOptions{}.smallest_angle_deg;
   std::optional<double> tolerance_km;
+  std::optional<double> weld_km;
   double fill_narrow = 0;
   double smallest_part = 0;
   std::string depth;      // --depth: positive down
@@ -176,6 +177,7 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   wanted.refine.smallest_angle_deg = options.angle;
   wanted.fill_narrow = options.fill_narrow;
   wanted.smallest_part = options.smallest_part;
+  if (options.weld_km) wanted.weld = *options.weld_km / kilometers_per_radian;
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
   std::vector<CellFacts> facts;
   const mesh::MeshDomain domain = read_domain(options, execution, facts);
@@ -261,6 +263,13 @@ void add_spacing(CLI::App& parser, MeshTrianglesOptions& options) {
                   "How far coasts, borders and lines of the mesh may be from those given;\n"
                   "islands and lakes that are nowhere wider vanish (default: a quarter of the\n"
                   "spacing, or 0)")
+      ->check([](const std::string& text) { return range_error(text, 0, 5000); })
+      ->type_name("KM");
+  parser
+      .add_option("--weld", options.weld_km,
+                  "Put corners that are nearer than this to another corner or to a side there, as\n"
+                  "where rounded borders leave gaps (default: 1e-4 of the spacing, at most the\n"
+                  "tolerance)")
       ->check([](const std::string& text) { return range_error(text, 0, 5000); })
       ->type_name("KM");
   parser

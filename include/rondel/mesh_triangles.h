@@ -48,6 +48,10 @@ struct TrianglesOptions {
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
   /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
   std::optional<double> tolerance = std::nullopt;
+  /// Corners, ends and points that are nearer than this, in radians, to another one or to a side are
+  /// put there before anything else is done: for gaps and overlaps that rounded numbers leave along
+  /// borders. At most pi / 4.
+  std::optional<double> weld = std::nullopt;
   /// Water that is narrower than this share of the spacing, from 0 to 1, becomes land: straits,
   /// coves and the ends of fjords, where edges would be as short as the water is narrow. 0 keeps
   /// all water.

@@ -136,6 +136,9 @@ class TrianglesOfDomain {
 
   DomainTriangles run(const MeshDomain& domain) {
     take(domain);
+    if (const auto& near = options_.weld) {
+      meshing::weld(all_, [&](const Point&) { return *near; });
+    }
     simplify();
     require_area();
     triangulate();
@@ -226,8 +229,8 @@ class TrianglesOfDomain {
   // Triangulates all features, and finds the faces of the mesh. Where corners of the features have
   // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
   void triangulate() {
-    features_ = constraints_of_features(all_.lines, all_.polygons);
     weld_features();
+    features_ = constraints_of_features(all_.lines, all_.polygons);
     triangulate_sites();
     const Triangulation& first = triangulation_.triangulation;
     bool is_found = false;
@@ -254,7 +257,7 @@ class TrianglesOfDomain {
     constexpr double share = 1e-4;
     constexpr double least = 1e-12;
     const auto& spacing = options_.refine.spacing;
-    meshing::weld(features_, [&](const Point& place) {
+    meshing::weld(all_, [&](const Point& place) {
       const double near = spacing ? share * spacing->spacing(place) : 0;
       return std::max(least, std::min(near, options_.tolerance.value_or(near)));
     });
@@ -426,6 +429,9 @@ void require_shares(const TrianglesOptions& options) {
   }
   if (!is_share(options.smallest_part)) {
     throw InvalidInput("the share of the largest part below which parts vanish is not from 0 to 1");
+  }
+  if (options.weld && !(*options.weld >= 0 && *options.weld <= std::numbers::pi / 4)) {
+    throw InvalidInput("the distance of welding is not from 0 to pi / 4");
   }
   if (options.fill_narrow > 0 && !options.refine.spacing) {
     throw InvalidInput("narrow water can be filled only where there is a spacing");

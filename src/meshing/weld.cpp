@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "arrangement/box_tree.h"
 #include "exact/point_order.h"
 #include "exact/vector.h"
+#include "system/distinct.h"
 
 namespace rondel::meshing {
 namespace {
@@ -28,21 +31,32 @@ double squared(double x) { return x * x; }
 
 class Weld {
  public:
-  Weld(FeatureConstraints& features, const std::function<double(const Point&)>& near_at)
-      : features_(features), places_(features.sites.size()) {
-    for (const Point& site : features.sites) near_.push_back(near_at(site));
-    for (Index i = 0; i < places_.size(); ++i) places_[i] = i;
+  Weld(Geometries& features, const std::function<double(const Point&)>& near_at)
+      : features_(features) {
+    std::vector<Point> points = features.lines.rows.values;
+    for (const Index corner : features.polygons.corners) {
+      points.push_back(features.polygons.points[corner]);
+    }
+    auto [sites, numbers] = system::distinct(std::span<const Point>(points));
+    sites_ = std::move(sites);
+    numbers_ = std::move(numbers);
+    for (const Point& site : sites_) near_.push_back(near_at(site));
+    for (Index i = 0; i < sites_.size(); ++i) places_.push_back(i);
   }
 
   void run() {
     unite_sites();
-    for (auto& ends : features_.constraints) {
-      for (Index& end : ends) end = places_[end];
+    for (Index& number : numbers_) number = places_[number];
+    const auto& lines = features_.lines.rows;
+    for (std::size_t r = 0; r < lines.size(); ++r) {
+      add_sides(lines.offsets[r], lines.offsets[r + 1], false);
+    }
+    const auto& rings = features_.polygons.rings;
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+      add_sides(lines.values.size() + rings[r], lines.values.size() + rings[r + 1], true);
     }
     find_sites_on_sides();
-    if (num_united_ == 0 && on_sides_.empty()) return;
-    divide_sides();
-    drop_united();
+    if (num_united_ > 0 || !on_sides_.empty()) features_ = welded();
   }
 
  private:
@@ -57,7 +71,7 @@ class Weld {
   // Gives sites that are too near to one with smaller coordinates the place of that one: the order of
   // sites changes nothing.
   void unite_sites() {
-    const std::vector<Point>& sites = features_.sites;
+    const std::vector<Point>& sites = sites_;
     const auto is_before = [&](Index i, Index j) { return exact::is_less(sites[i], sites[j]); };
     std::vector<Index> order = places_;
     std::ranges::sort(order, is_before);
@@ -74,24 +88,31 @@ class Weld {
     }
   }
 
+  // Adds the sides of a line or ring, whose sites are those of some numbers.
+  void add_sides(std::uint64_t begin, std::uint64_t end, bool is_ring) {
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const bool is_last = k + 1 == end;
+      if (!is_last || is_ring) sides_.push_back({numbers_[k], numbers_[is_last ? begin : k + 1]});
+    }
+  }
+
   void find_sites_on_sides() {
     const auto box = [&](std::size_t s) {
-      const auto& [a, b] = features_.constraints[s];
-      return arrangement::box_of(features_.sites[a], features_.sites[b]);
+      return arrangement::box_of(sites_[sides_[s][0]], sites_[sides_[s][1]]);
     };
-    const BoxTree tree(features_.constraints.size(), box, 1);
+    const BoxTree tree(sides_.size(), box, 1);
     for (Index i = 0; i < places_.size(); ++i) {
       if (places_[i] != i) continue;
-      tree.visit(box_around(features_.sites[i], near_[i]), [&](Index side) { look_at(side, i); });
+      tree.visit(box_around(sites_[i], near_[i]), [&](Index side) { look_at(side, i); });
     }
     std::ranges::sort(on_sides_);
   }
   void look_at(Index side, Index site) {
-    const auto& [begin, end] = features_.constraints[side];
+    const auto& [begin, end] = sides_[side];
     if (site == begin || site == end) return;
-    const Point& a = features_.sites[begin];
-    const Point& b = features_.sites[end];
-    const Point& p = features_.sites[site];
+    const Point& a = sites_[begin];
+    const Point& b = sites_[end];
+    const Point& p = sites_[site];
     const Point across = cross(a, b);
     if (!(dot(across, across) > 0)) return;
     const Point normal = normalized(across);
@@ -102,63 +123,76 @@ class Weld {
     if (is_between) on_sides_.push_back({side, dot(foot - a, foot - a), site});
   }
 
-  // Makes chains of sides through the sites on them, and the polygons' rows again.
-  void divide_sides() {
-    std::vector<std::array<Index, 2>> constraints;
-    std::vector<Index> features;
-    std::vector<std::size_t> begins;
-    auto next = on_sides_.begin();
-    for (Index s = 0; s < features_.constraints.size(); ++s) {
-      begins.push_back(constraints.size());
-      Index at = features_.constraints[s][0];
-      const auto go_to = [&](Index site) {
-        if (site == at) return;
-        constraints.push_back({at, site});
-        features.push_back(features_.features[s]);
-        at = site;
-      };
-      for (; next != on_sides_.end() && next->side == s; ++next) go_to(next->site);
-      go_to(features_.constraints[s][1]);
-    }
-    begins.push_back(constraints.size());
-    CompressedRows<Index> polygons;
-    for (std::size_t row = 0; row < features_.polygons.size(); ++row) {
-      for (const Index s : features_.polygons[row]) {
-        for (std::size_t k = begins[s]; k < begins[s + 1]; ++k) {
-          polygons.values.push_back(static_cast<Index>(k));
-        }
+  // Returns the sites of the next line or ring, each once in a row.
+  std::vector<Index> next_chain(std::uint64_t begin, std::uint64_t end, bool is_ring) {
+    std::vector<Index> chain;
+    const auto go_to = [&](Index site) {
+      if (chain.empty() || chain.back() != site) chain.push_back(site);
+    };
+    for (std::uint64_t k = begin; k < end; ++k) {
+      go_to(numbers_[k]);
+      if (k + 1 == end && !is_ring) break;
+      for (; next_ < on_sides_.size() && on_sides_[next_].side == side_; ++next_) {
+        go_to(on_sides_[next_].site);
       }
-      polygons.end_row();
+      ++side_;
     }
-    features_.constraints = std::move(constraints);
-    features_.features = std::move(features);
-    features_.polygons = std::move(polygons);
+    while (is_ring && chain.size() > 1 && chain.back() == chain.front()) chain.pop_back();
+    return chain;
   }
 
-  void drop_united() {
-    std::vector<Index> numbers(places_.size(), no_index);
-    std::vector<Point> sites;
-    for (Index i = 0; i < places_.size(); ++i) {
-      if (places_[i] != i) continue;
-      numbers[i] = static_cast<Index>(sites.size());
-      sites.push_back(features_.sites[i]);
+  Geometries welded() {
+    Geometries made;
+    const auto& lines = features_.lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (std::uint64_t r = lines.offsets[i]; r < lines.offsets[i + 1]; ++r) {
+        std::vector<Point> line;
+        for (const Index site :
+             next_chain(lines.rows.offsets[r], lines.rows.offsets[r + 1], false)) {
+          line.push_back(sites_[site]);
+        }
+        made.lines.rows.append(line);
+      }
+      made.lines.end_group();
     }
-    features_.sites = std::move(sites);
-    for (auto& ends : features_.constraints) {
-      for (Index& end : ends) end = numbers[end];
+    const CellRings& polygons = features_.polygons;
+    std::vector<Index> corner_of(sites_.size(), no_index);
+    for (std::size_t i = 0; i < polygons.num_cells(); ++i) {
+      for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
+        const std::uint64_t first = lines.rows.values.size();
+        std::vector<Index> ring =
+            next_chain(first + polygons.rings[r], first + polygons.rings[r + 1], true);
+        if (ring.size() < 3) continue;
+        for (Index& site : ring) {
+          Index& corner = corner_of[site];
+          if (corner == no_index) {
+            corner = static_cast<Index>(made.polygons.points.size());
+            made.polygons.points.push_back(sites_[site]);
+          }
+          site = corner;
+        }
+        made.polygons.append_ring(ring);
+      }
+      made.polygons.end_cell();
     }
+    return made;
   }
 
-  FeatureConstraints& features_;
-  std::vector<Index> places_;  // of each site: the site whose place it has
-  std::vector<double> near_;   // by site
+  Geometries& features_;
+  std::vector<Point> sites_;
+  std::vector<Index> numbers_;               // the site of each point of lines, and of each corner
+  std::vector<std::array<Index, 2>> sides_;  // of lines and rings, one after the other
+  std::vector<Index> places_;                // of each site: the site whose place it has
+  std::vector<double> near_;                 // by site
   std::vector<SiteOnSide> on_sides_;
   std::size_t num_united_ = 0;
+  Index side_ = 0;        // the next one of welded()
+  std::size_t next_ = 0;  // of on_sides_
 };
 
 }  // namespace
 
-void weld(FeatureConstraints& features, const std::function<double(const Point&)>& near_at) {
+void weld(Geometries& features, const std::function<double(const Point&)>& near_at) {
   Weld(features, near_at).run();
 }
 

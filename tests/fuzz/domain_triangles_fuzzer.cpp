@@ -108,6 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t kind = source.byte();
   if (is_spaced) options.fill_narrow = (kind / 4) % 4 / 3.0;
   options.smallest_part = kind / 16 % 4 / 3.0;
+  if (kind >= 128) options.weld = kind / 64 % 2 == 0 ? 0.02 : 0.3;
   mesh::MeshDomain domain;
   for (auto* part : {&domain.coast, &domain.area}) {
     std::vector<LonLat> positions(3U + source.byte() % 6U);

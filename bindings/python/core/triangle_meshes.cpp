@@ -119,14 +119,16 @@ std::vector<std::string> write_triangle_file(const TriangleMesh& mesh, const std
 std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
     const Geometries& coast, const Geometries* area, const Geometries& lines,
     const NumbersIn& spacings, std::size_t steps, double gradient,
-    const std::optional<double>& tolerance, double smallest_angle, double fill_narrow,
-    double smallest_part, double west_deg, unsigned threads, const nb::object& listener) {
+    const std::optional<double>& tolerance, const std::optional<double>& weld,
+    double smallest_angle, double fill_narrow, double smallest_part, double west_deg,
+    unsigned threads, const nb::object& listener) {
   mesh::TrianglesOptions options;
   options.refine.spacing = size_of(rows_of<double>(spacings), steps, gradient);
   options.refine.smallest_angle_deg = smallest_angle;
   options.fill_narrow = fill_narrow;
   options.smallest_part = smallest_part;
   options.tolerance = tolerance;
+  options.weld = weld;
   mesh::MeshDomain domain;
   domain.west_deg = west_deg;
   if (coast.size() > 0) domain.coast.push_back(coast);
@@ -168,9 +170,9 @@ void add_triangle_meshes(nb::module_& module) {
              nb::arg("levels").noconvert());
   module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area").none(),
              nb::arg("lines"), nb::arg("spacings").noconvert(), nb::arg("steps"),
-             nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("smallest_angle"),
-             nb::arg("fill_narrow"), nb::arg("smallest_part"), nb::arg("west_deg"),
-             nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("weld").none(),
+             nb::arg("smallest_angle"), nb::arg("fill_narrow"), nb::arg("smallest_part"),
+             nb::arg("west_deg"), nb::arg("threads"), nb::arg("progress").none());
   module.def("read_triangles", &triangles_of_file, nb::arg("path"), nb::arg("format"),
              nb::arg("threads"));
 }

@@ -342,6 +342,7 @@ def triangles(
     spacing: Spacing | None = None,
     gradient: float | None = None,
     tolerance: float | None = None,
+    weld: float | None = None,
     smallest_angle: float = 26.5,
     fill_narrow: float = 0.0,
     smallest_part: float = 0.0,
@@ -374,6 +375,10 @@ def triangles(
         How far coasts, borders and lines of the mesh may be from those given, in radians. They are
         simplified with their topology kept; islands and lakes that are nowhere wider vanish. By
         default a quarter of the spacing, or 0 without one.
+    weld : float, optional
+        Corners that are nearer than this to another corner or to a side, in radians, are put there
+        first, as where rounded borders leave gaps and overlaps; by default 1e-4 of the spacing, at
+        most the tolerance.
     smallest_angle : float, optional
         The smallest angle of triangles in degrees, up to 33; by default 26.5. Triangles near
         places where coasts, borders or lines meet at less than 60 degrees may have smaller ones.
@@ -456,6 +461,7 @@ def triangles(
         steps=steps,
         gradient=slope_of(gradient),
         tolerance=None if tolerance is None else float(tolerance),
+        weld=None if weld is None else float(weld),
         smallest_angle=float(smallest_angle),
         fill_narrow=float(fill_narrow),
         smallest_part=float(smallest_part),

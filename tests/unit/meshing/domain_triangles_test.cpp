@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -242,6 +243,53 @@ TEST(domain_triangles, features_that_touch_are_welded) {
   options.tolerance.reset();
   const DomainTriangles with_pier = triangles({{slanted}, {sea}, {pier}}, options);
   EXPECT_GT(shortest_edge(with_pier), 0.05);
+}
+
+// Borders that were rounded to three decimals have corners beside the sides of their neighbors: there
+// are overlaps of 1e-3 degrees, which the mesh fills with triangles as narrow, and gaps, which are
+// slits. A distance of 2e-3 degrees closes both.
+TEST(domain_triangles, rounded_borders_are_welded) {
+  const Ring west = {{0, 0}, {3.1, 0.2}, {3, 2}, {0, 2}};
+  const auto east_of = [](double lon_deg) {
+    return Ring{{3.1, 0.2}, {6, 0}, {6, 2}, {3, 2}, {lon_deg, 1.1}, {lon_deg + 0.025, 0.65}};
+  };
+  for (const double lon_deg : {3.049, 3.051}) {
+    const Geometries first = polygon({west});
+    const Geometries second = polygon({east_of(lon_deg)});
+    const Geometries point = line({{3.0562, 1.0}});
+    TrianglesOptions options = spaced(0.2);
+    options.tolerance.reset();
+    options.weld = 2e-3 * std::numbers::pi / 180;
+    const DomainTriangles made = triangles({{}, {first, second}, {point}}, options);
+    EXPECT_EQ(made.mesh.report.num_near_small_angles, 0U) << lon_deg;
+    EXPECT_GT(shortest_edge(made), 0.05) << lon_deg;
+    EXPECT_NEAR(area_of(made), area_of(first) + area_of(second), 2e-6);
+    const DomainTriangles other = triangles({{}, {second, first}, {point}}, options);
+    EXPECT_TRUE(std::ranges::equal(made.mesh.nodes, other.mesh.nodes));
+    EXPECT_EQ(made.mesh.triangles, other.mesh.triangles);
+    options.weld.reset();
+    options.tolerance = 0;
+    const DomainTriangles open = triangles({{}, {first, second}, {point}}, options);
+    const bool is_overlap = lon_deg < 3.05;
+    EXPECT_EQ(shortest_edge(open) < 2e-3, is_overlap);
+    EXPECT_EQ(mesh::pinched_nodes(mesh::triangle_mesh(open)).empty(), is_overlap);
+    EXPECT_TRUE(mesh::pinched_nodes(mesh::triangle_mesh(made)).empty());
+  }
+}
+
+// An island that is smaller than the distance has no corners left, and a spike closes.
+TEST(domain_triangles, welded_rings_may_vanish) {
+  const Geometries sea = polygon({box(0, 0, 4, 4)});
+  const Geometries islands = polygon({box(1, 1, 1.01, 1.01), {{2, 2}, {3, 2}, {3, 3}, {2, 3}}});
+  TrianglesOptions options = spaced(0.5);
+  options.weld = 0.02 * std::numbers::pi / 180;
+  const DomainTriangles made = triangles({{islands}, {sea}, {}}, options);
+  const Geometries left = polygon({{{2, 2}, {3, 2}, {3, 3}, {2, 3}}});
+  EXPECT_NEAR(area_of(made), area_of(sea) - area_of(left), 1e-12);
+  for (const double bad : {-1.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options.weld = bad;
+    EXPECT_THROW(triangles({{islands}, {sea}, {}}, options), InvalidInput);
+  }
 }
 
 // Two seas of 10 and 4 degrees, a strait of 0.1 degrees between them, and a fjord of the large one.
