@@ -253,8 +253,9 @@ std::string commands_for(const SiteTable& table, const std::optional<FieldSet>& 
   if (values.empty() && elsewhere) values = first_field_of(*elsewhere);
   if (!values.empty()) text += "and with --value " + as_word(values) + ": interpolate, contours\n";
   if (is_netcdf_file(common.source())) {
-    text += "and if its values are on cells: regrid, remap, mesh quality\n";
-    if (mesh::is_ugrid_of_triangles(common.source())) text += "and as triangles: mesh convert\n";
+    text += "and if its values are on cells: regrid, remap";
+    const bool are_triangles = mesh::is_ugrid_of_triangles(common.source());
+    text += are_triangles ? "\nand as triangles: mesh convert, mesh quality\n" : ", mesh quality\n";
   }
   return text;
 }
