@@ -28,6 +28,9 @@ constexpr bool has_threads = true;
 constexpr bool has_threads = false;
 #endif
 
+// Of blocks that are to be more than others.
+constexpr std::size_t small_block_sites = default_max_block_sites / 4;
+
 using kernel::Triangulated;
 using Edge = PlaneGraph::Edge;
 
@@ -127,13 +130,19 @@ std::optional<Triangulated> triangulate_by_blocks(const Input& input,
                                                   std::size_t max_block_sites,
                                                   LargeVector<Triple> copies,
                                                   const SeamRule& rule) {
-  const auto squares = make_squares(input, max_block_sites);
+  const unsigned threads = system::num_threads(input.options.threads);
+  auto squares = make_squares(input, max_block_sites);
+  auto blocks = blocks_of(squares);
+  // Threads that wait for others lose more than a longer seam takes.
+  if (blocks.size() < 2 * std::size_t{threads} && max_block_sites > small_block_sites) {
+    squares = make_squares(input, small_block_sites);
+    blocks = blocks_of(squares);
+  }
   Triangulated result;
   result.builder = Builder::blocks;
   result.arrays.faces = std::move(copies);
-  const auto results = triangulate_blocks(input, blocks_of(squares), result.arrays);
+  const auto results = triangulate_blocks(input, blocks, result.arrays);
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
-  const unsigned threads = system::num_threads(input.options.threads);
   SeamFaces seam(results, {result.arrays.faces, result.arrays.neighbors}, threads);
   const bool is_filled = has_threads ? fill_seam(input, squares, results, rule, seam, result.tally)
                                      : fill_seam_at_once(input, results, seam, result.tally);

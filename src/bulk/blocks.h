@@ -26,8 +26,7 @@
 
 namespace rondel::bulk {
 
-// The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
-// so that the work does not depend on the threads.
+// The mesh of a block lies in the second cache, and its seam is a small part of it.
 inline constexpr std::size_t default_max_block_sites = 3 << 14;
 
 // Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
@@ -38,10 +37,10 @@ bool has_short_seams(const Input& input);
 std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
                                             TriangulationArrays& arrays);
 
-// Computes what kernel::triangulate does, with blocks of at most `max_block_sites`; returns nothing
-// if the seam has no hull, because all its sites lie on one great circle. The faces are written
-// into the memory of `copies`, which may be that of the copies in `input`: blocks read their sites
-// before they write their faces. `rule` says when the seam is long.
+// Computes what kernel::triangulate does, with blocks of at most `max_block_sites`, or with smaller ones
+// where threads would wait; returns nothing if the seam has no hull, because all its sites lie on one
+// great circle. The faces are written into the memory of `copies`, which may be that of the copies in
+// `input`: blocks read their sites before they write their faces. `rule` says when the seam is long.
 std::optional<kernel::Triangulated> triangulate_by_blocks(const Input& input,
                                                           std::span<const order::Renamed> renamed,
                                                           std::size_t max_block_sites,

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "system/parallel.h"
 #include "system/prefetch.h"
 #include "system/wide_vectors.h"
 
@@ -29,8 +30,9 @@ template <bool has_open>
 class Emission {
  public:
   Emission(PlaneGraph& graph, const EmittedSites& sites, EmissionSpace& space,
-           const FaceStore& store, BlockResult& result)
-      : graph_(graph),
+           const FaceStore& store, BlockResult& result, unsigned threads)
+      : threads_(has_open ? 1 : threads),
+        graph_(graph),
         sites_(sites),
         owned_(space.owned),
         owners_(space.owners),
@@ -42,16 +44,31 @@ class Emission {
     find_owned();
     list_sites(open, hidden);
     if (result_.faces_end == result_.faces_begin) return;
-    if (sites_.names.empty()) {
-      write_corners([first = sites_.first](Index v) { return first + v; });
-    } else {
-      write_corners([names = sites_.names.data()](Index v) { return names[v]; });
-    }
-    name_faces();
-    write_neighbors();
+    for_parts(num_owners_, [this](std::size_t begin, std::size_t end) {
+      if (sites_.names.empty()) {
+        write_corners([first = sites_.first](Index v) { return first + v; }, begin, end);
+      } else {
+        write_corners([names = sites_.names.data()](Index v) { return names[v]; }, begin, end);
+      }
+    });
+    for_parts(result_.faces_end - result_.faces_begin,
+              [this](std::size_t begin, std::size_t end) { name_faces(begin, end); });
+    for_parts(graph_.edge_limit() / 2,
+              [this](std::size_t begin, std::size_t end) { write_neighbors(begin, end); });
   }
 
  private:
+  // Calls work(begin, end) for parts of 0 ... count-1, by several threads if there are.
+  template <class Work>
+  void for_parts(std::size_t count, const Work& work) const {
+    constexpr std::size_t grain = 4096;
+    if (threads_ == 1) {
+      work(std::size_t{0}, count);
+    } else {
+      system::parallel_for(threads_, count, grain, work);
+    }
+  }
+
   static bool is_open(Index face) { return has_open && face == open_face; }
 
   // Counts the face on the left of an edge for the lower one of its ends, if this site owns it.
@@ -140,17 +157,18 @@ class Emission {
   }
 
   // Writes the corners of the faces in the order of their owners and, where the first neighbor of each
-  // will be, the halfedge from the owner to the second corner.
+  // will be, the halfedge from the owner to the second corner. Only some owners, by their place.
   template <class Name>
-  void write_corners(const Name& name) {
+  void write_corners(const Name& name, std::size_t first_owner, std::size_t end_owner) {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
     constexpr std::size_t num_walks = 3;
     std::array<OwnerWalk, num_walks> walks;
     for (std::size_t k = 0; k < num_walks; ++k) {
-      const std::size_t begin = num_owners_ * k / num_walks;
-      const std::size_t end = num_owners_ * (k + 1) / num_walks;
+      const std::size_t count = end_owner - first_owner;
+      const std::size_t begin = first_owner + count * k / num_walks;
+      const std::size_t end = first_owner + count * (k + 1) / num_walks;
       const Owner* const owners = owners_.data();
       walks[k] = {owners[begin].first, begin == 0 ? 0 : owners[begin - 1].end, owners + begin,
                   owners + end};
@@ -164,13 +182,13 @@ class Emission {
     }
   }
 
-  // Names the faces. A name is kept with the three halfedges, four times, plus the number of the corner
+  // Names some faces. A name is kept with the three halfedges, four times, plus the number of the corner
   // opposite to the halfedge.
-  void name_faces() {
+  void name_faces(std::size_t first_face, std::size_t end_face) {
     const PlaneGraph::Links* const rings = graph_.rings();
     Index* const faces = graph_.faces();
-    const Index num_faces = result_.faces_end - result_.faces_begin;
-    for (Index face = 0; face < num_faces; ++face) {
+    const auto end = static_cast<Index>(end_face);
+    for (auto face = static_cast<Index>(first_face); face < end; ++face) {
       const Edge e = neighbors_[face][0];
       const Edge next = rings[e].next;
       faces[rings[e ^ 1].previous] = 4 * face;
@@ -179,13 +197,14 @@ class Emission {
     }
   }
 
-  void write_neighbors() {
+  // At the edges with these numbers.
+  void write_neighbors(std::size_t first_edge, std::size_t end_edge) {
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
-    const Edge limit = graph_.edge_limit();
+    const auto limit = static_cast<Edge>(2 * end_edge);
     const Index begin = result_.faces_begin;
     Index* const neighbors = neighbors_->data();
-    for (Edge e = 0; e < limit; e += 2) {
+    for (auto e = static_cast<Edge>(2 * first_edge); e < limit; e += 2) {
       if (targets[e] == no_index) continue;
       const Index left = faces[e];
       const Index right = faces[e + 1];
@@ -209,6 +228,7 @@ class Emission {
                                   result_.faces_begin + face, corner});
   }
 
+  unsigned threads_;
   PlaneGraph& graph_;
   const EmittedSites& sites_;
   std::vector<Owned>& owned_;
@@ -223,16 +243,17 @@ class Emission {
 
 void emit_faces(PlaneGraph& graph, const EmittedSites& sites, const std::vector<Edge>& open,
                 const std::vector<Index>& hidden, EmissionSpace& space, const FaceStore& store,
-                BlockResult& result) {
+                BlockResult& result, unsigned threads) {
   result.faces_begin = 2 * sites.first;
   space.owned.assign(sites.num, {~std::uint64_t{0}, 0, no_index});
   space.owners.resize(sites.num + num_ahead);
 #if defined(__wasm__)  // where a second one would cost more bytes than it saves time
   if (open.empty()) graph.clear_faces();
 #else
-  if (open.empty()) return Emission<false>(graph, sites, space, store, result).run(open, hidden);
+  if (open.empty())
+    return Emission<false>(graph, sites, space, store, result, threads).run(open, hidden);
 #endif
-  Emission<true>(graph, sites, space, store, result).run(open, hidden);
+  Emission<true>(graph, sites, space, store, result, threads).run(open, hidden);
 }
 
 }  // namespace rondel::bulk

@@ -81,10 +81,11 @@ struct EmittedSites {
 
 // The graph names the open faces (open_faces.h) and no others, or anything if none is open; `open`
 // lists the halfedges with an open face on their left, `hidden` the sites without edges. Names all
-// faces in the graph. Corners are written as ranks or, if sites have names, by these. Precondition:
-// less than 2^28 sites.
+// faces in the graph. Corners are written as ranks or, if sites have names, by these. Threads help
+// where no face is open. Precondition: less than 2^28 sites.
 void emit_faces(PlaneGraph& graph, const EmittedSites& sites,
                 const std::vector<PlaneGraph::Edge>& open, const std::vector<Index>& hidden,
-                EmissionSpace& space, const FaceStore& store, BlockResult& result);
+                EmissionSpace& space, const FaceStore& store, BlockResult& result,
+                unsigned threads = 1);
 
 }  // namespace rondel::bulk

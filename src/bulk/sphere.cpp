@@ -103,10 +103,14 @@ class SphereTriangulation {
     }
   }
 
+  [[nodiscard]] unsigned num_threads() const {
+    return num_sites_ < min_parallel_sites ? 1 : by_ranks_.options.threads;
+  }
+
   // Triangulates the lunes, merges them to halves, and these to a sphere. Returns false if this does
   // not work.
   bool conquer() {
-    const unsigned threads = num_sites_ < min_parallel_sites ? 1 : by_ranks_.options.threads;
+    const unsigned threads = num_threads();
     // The rest counts as one lune more.
     system::StageProgress progress(by_ranks_.options.progress, "triangulate", num_lunes + 1);
     Input input = by_ranks_;
@@ -135,9 +139,13 @@ class SphereTriangulation {
     PlaneGraph& graph = pieces_[0].graph();
     const Index* const ranks = ranks_.data();
     const Index none = num_sites_;
-    for (Index& target : std::span(graph.targets(), graph.edge_limit())) {
-      target = ranks[std::min(target, none)];
-    }
+    const std::span targets(graph.targets(), graph.edge_limit());
+    constexpr std::size_t grain = 16384;
+    system::parallel_for(num_threads(), targets.size(), grain,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (Index& target : targets.subspan(begin, end - begin))
+                             target = ranks[std::min(target, none)];
+                         });
     arrays.faces.resize(2 * std::size_t{num_sites_});
     arrays.neighbors.resize(2 * std::size_t{num_sites_});
     std::vector<Index> space;
@@ -145,7 +153,7 @@ class SphereTriangulation {
     EmissionSpace emission;
     BlockResult all;
     emit_faces(graph, {0, num_sites_, names}, {}, {}, emission, {arrays.faces, arrays.neighbors},
-               all);
+               all, num_threads());
     arrays.faces.resize(all.faces_end);
     arrays.neighbors.resize(all.faces_end);
     arrays.dimension = 2;
