@@ -35,7 +35,7 @@ _MEASURES = "as they are areas or volumes of cells"
 # The attributes that name variables of a Dataset, or `compress` its dimensions; and the one that
 # xarray understands.
 _LISTED = "coordinates"
-_NAMING = (
+NAMING = (
     "ancillary_variables",
     "bounds",
     "climatology",
@@ -131,7 +131,7 @@ def carried(
     _tell_of_coordinates(data, source)
     _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
-        name = _names_apart([data.name], data, wanted).get(data.name, data.name)
+        name = names_apart([data.name], data, wanted).get(data.name, data.name)
         return _without_bounds(moved(data), wanted).rename(name)
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
     if lost:
@@ -144,7 +144,7 @@ def carried(
     measures = [name for name in measures if name not in source.own_names | parts]
     own_names = source.own_names | parts | {*measures}
     given, fields_of = data, [name for name in data.data_vars if str(name) not in own_names]
-    apart = _names_apart(fields_of, data, wanted)
+    apart = names_apart(fields_of, data, wanted)
     data = data.rename_vars(apart)
     fields = {apart.get(name, name): data[apart.get(name, name)] for name in fields_of}
     if measures:
@@ -190,7 +190,7 @@ def in_order(made: xarray.Dataset, data: xarray.Dataset) -> xarray.Dataset:
     return chosen
 
 
-def _names_apart(names: list[Any], data: Any, wanted: Places) -> dict[Any, Any]:
+def names_apart(names: list[Any], data: Any, wanted: Places) -> dict[Any, Any]:
     """Other names for those of variables that coordinates, bounds or dimensions of the target have,
     as files get them: with underscores.
     """
@@ -232,8 +232,8 @@ def _named_again(
     for name in [name for name in made.variables if name in former]:
         old, item = former[name], made.variables[name].copy(deep=False)
         # xarray itself writes the coordinates that it has understood.
-        item.attrs = renamed(old.attrs, item.attrs, (*_NAMING, _LISTED))
-        item.encoding = renamed(old.encoding, item.encoding, _NAMING)
+        item.attrs = renamed(old.attrs, item.attrs, (*NAMING, _LISTED))
+        item.encoding = renamed(old.encoding, item.encoding, NAMING)
         given = made.variables[name]
         if item.attrs != given.attrs or item.encoding != given.encoding:
             changed[name] = item

@@ -418,7 +418,7 @@ class Regridder(Described):
                 return carried(data, self._applied, source, self._target, **options)
             parts = in_space(data, pairs, source)
             found = carried(parts, self._applied, source, self._target, **options)
-            return on_sphere(found, data, pairs, self._target, keep_attrs)
+            return on_sphere(found, data, pairs, self._target)
         if vectors:
             raise TypeError("vectors are variables of a Dataset, and the data are none")
         is_labeled = isinstance(data, xarray.DataArray)

@@ -10,9 +10,9 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._carried import in_order
+from ._carried import NAMING, in_order, names_apart
 from ._places import Places
-from ._values import missing_marker, unpacked
+from ._values import OF_VALUES, missing_marker, unpacked
 from ._winds import directions
 
 _AXES = "xyz"
@@ -50,42 +50,53 @@ def _component(name: str, array: xarray.DataArray) -> tuple[str, str, str, bool]
 
 
 def in_space(data: xarray.Dataset, pairs: list[tuple[str, str]], source: Places) -> xarray.Dataset:
-    """The data with three variables in place of each pair, in the order of their names."""
+    """The data with the components in space of each pair: two of them in place of its variables,
+    with their attributes, and one more.
+    """
     data = unpacked(data)
-    to_east, to_north = _frames(source)
+    frames = _frames(source)
     made = {}
     for east, north in pairs:
-        u, v = (_marked(data[name]).astype(np.float64) for name in (east, north))
-        for axis in _AXES:
-            part = u * to_east[axis] + v * to_north[axis]
-            made[_name(east, axis)] = part.transpose(*data[east].dims)
-    return data.drop_vars([name for pair in pairs for name in pair]).assign(made)
+        given = data[east], data[north]
+        u, v = (_marked(array).astype(np.float64) for array in given)
+        for axis, name, array in zip(_AXES, _parts(east, north), (*given, None), strict=True):
+            part = u * frames[0][axis] + v * frames[1][axis]
+            made[name] = part.transpose(*data[east].dims)
+            if array is None:
+                continue
+            # Missing values are NaN in the parts, whatever marks them in the data.
+            made[name].attrs = {k: text for k, text in array.attrs.items() if k not in OF_VALUES}
+            made[name].encoding = {k: array.encoding[k] for k in NAMING if k in array.encoding}
+    return data.assign(made)
 
 
 def on_sphere(
-    found: xarray.Dataset,
-    data: xarray.Dataset,
-    pairs: list[tuple[str, str]],
-    target: Places,
-    keep_attrs: bool,
+    found: xarray.Dataset, data: xarray.Dataset, pairs: list[tuple[str, str]], target: Places
 ) -> xarray.Dataset:
     """What was carried, with the parts along the sphere to the east and to the north."""
     frames = _frames(target)
+    apart = names_apart([name for pair in pairs for name in pair], data, target)
     made, lost = {}, []
     for east, north in pairs:
-        parts = [found[_name(east, axis)] for axis in _AXES]
-        lost += [_name(east, axis) for axis in _AXES]
-        for name, to in zip((east, north), frames, strict=True):
+        names = [apart.get(name, name) for name in _parts(east, north)]
+        if gone := [name for name in names if name not in found.data_vars]:
+            raise ValueError(
+                f"{gone[0]!r}, a component of vectors, is not at the places of the source"
+            )
+        parts = [found[name] for name in names]
+        lost.append(names[-1])
+        for name, of_part, given, to in zip(names, parts, (east, north), frames, strict=False):
             x, y, z = (part * to[axis] for axis, part in zip(_AXES, parts, strict=True))
-            kind = data[name].dtype if data[name].dtype.kind == "f" else np.dtype(np.float64)
+            kind = data[given].dtype if data[given].dtype.kind == "f" else np.dtype(np.float64)
             made[name] = (x + y + z).transpose(*parts[0].dims).astype(kind)
-            made[name].attrs = dict(data[name].attrs) if keep_attrs else {}
-            made[name].encoding = dict(parts[0].encoding)
+            made[name].attrs = dict(of_part.attrs)
+            made[name].encoding = dict(of_part.encoding)
     return in_order(found.drop_vars(lost).assign(made), data)
 
 
-def _name(east: str, axis: str) -> str:
-    return f"{east}, {axis} in space"
+def _parts(east: str, north: str) -> tuple[str, str, str]:
+    """The names of the components in space."""
+    return east, north, f"{east}, z in space"
 
 
 def _marked(array: xarray.DataArray) -> xarray.DataArray:

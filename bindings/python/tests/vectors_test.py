@@ -95,6 +95,54 @@ def test_lazy_vectors_are_the_same(winds):
     xarray.testing.assert_identical(lazy.compute(), wanted)
 
 
+def test_attributes_of_components_are_filtered_as_those_of_others_are(winds):
+    of_places = {"coordinates": "other", "grid_mapping": "crs", "cell_measures": "area: areas"}
+    of_values = {"_FillValue": -9.0, "missing_value": -9.0, "valid_range": [-99.0, 99.0]}
+    kept = {"units": "m s-1", "standard_name": "eastward_wind", "cell_methods": "time: mean"}
+    winds.u.attrs = {**kept, **of_places, **of_values, "ancillary_variables": "quality t v"}
+    winds.t.attrs = {"ancillary_variables": "u v"}
+    winds = winds.assign(crs=0).drop_vars("v").assign(v=winds.v)
+    wanted = rondel.regrid(winds, "healpix:2")
+    found = rondel.regrid(winds, "healpix:2", vectors=[("u", "v")])
+    assert found.u.attrs == wanted.u.attrs == {**kept, "ancillary_variables": "t v"}
+    assert found.t.attrs == wanted.t.attrs == {"ancillary_variables": "u v"}
+    assert found.u.encoding == wanted.u.encoding
+    assert found.u.encoding["grid_mapping"] in found.coords
+    regridder = rondel.Regridder(winds, "healpix:2", "conservative")
+    assert regridder(winds, vectors=[("u", "v")], keep_attrs=False).u.attrs == {}
+
+
+def test_components_with_names_of_the_target_get_others(winds):
+    lat = xarray.DataArray(np.arange(-80.0, 90, 10), dims="u")
+    target = xarray.Dataset(coords={"lat": lat, "lon": ("v", np.arange(0.0, 360, 30))})
+    wanted = rondel.regrid(winds, target.rename(u="y", v="x"), "linear", vectors=[("u", "v")])
+    found = rondel.regrid(winds, target, "linear", vectors=[("u", "v")])
+    for name in "uv":
+        np.testing.assert_array_equal(found[f"{name}_"].values, wanted[name].values)
+
+
+def test_a_component_at_other_places_is_named():
+    lon, lat = np.meshgrid(np.arange(0.0, 40, 10), np.arange(0.0, 30, 10))
+    of_lon, of_lat = {"units": "degrees_east"}, {"units": "degrees_north"}
+    dims, wind = ("y", "x"), np.ones(lon.shape)
+    data = xarray.Dataset(
+        {
+            "u": (dims, wind, {"coordinates": "lon_u lat_u"}),
+            "v": (dims, wind, {"coordinates": "lon_v lat_v"}),
+            "lon_u": (dims, lon, of_lon),
+            "lat_u": (dims, lat, of_lat),
+            "lon_v": (dims, lon + 5, of_lon),
+            "lat_v": (dims, lat + 5, of_lat),
+        }
+    )
+    regridder = rondel.Regridder(data[["u", "lon_u", "lat_u"]], "grid:30", "nearest_s2d")
+    with (
+        pytest.warns(UserWarning, match="are not those of the source: v"),
+        pytest.raises(ValueError, match="'v', a component of vectors, is not at the places"),
+    ):
+        regridder(data, vectors=[("u", "v")])
+
+
 def test_what_are_no_vectors_is_named(winds):
     for vectors, wanted in (
         ([("u", "w")], "'w', a component of vectors, is no variable"),
