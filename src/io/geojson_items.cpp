@@ -125,7 +125,7 @@ void GeoJsonItems::read(const ItemListener& listener) {
                            [&](std::size_t depth, const std::string& list, const JsonTree& object) {
                              if (depth == 1 && list == "crs") {  // before positions are refused
                                JsonTree root;
-                               root.members["crs"] = object;
+                               root.members.push_back({list, object});
                                require_degrees(root);
                              }
                              if (!is_item(depth, list)) return false;
@@ -186,7 +186,7 @@ void GeoJsonItems::visit_geometry(const JsonTree& geometry, const JsonTree& feat
 void GeoJsonItems::visit_feature(const JsonTree& feature, const ItemListener& listener) {
   const std::string type = geojson_type(feature);
   if (type != "Feature") throw BadValue("type " + in_quotes(type) + " where a Feature is needed");
-  if (!feature.members.contains("geometry")) throw BadValue("no geometry");
+  if (!feature.has_member("geometry")) throw BadValue("no geometry");
   require_degrees(feature);
   const JsonTree& geometry = feature.member("geometry");
   if (is_unlocated(geometry)) {

@@ -10,8 +10,12 @@ namespace rondel::io {
 
 const JsonTree& JsonTree::member(const std::string& name) const {
   static const JsonTree null;
-  const auto found = members.find(name);
-  return found == members.end() ? null : found->second;
+  const auto found = std::ranges::find(members, name, &JsonMember::name);
+  return found == members.end() ? null : found->value;
+}
+
+bool JsonTree::has_member(const std::string& name) const {
+  return std::ranges::find(members, name, &JsonMember::name) != members.end();
 }
 
 std::string JsonTree::text() const {
@@ -45,7 +49,7 @@ bool JsonTreeBuilder::add(JsonTree value) {
   } else if (Level& level = open_.back(); level.tree.is_array()) {
     level.tree.items.push_back(std::move(value));
   } else {
-    level.tree.members.insert_or_assign(level.key, std::move(value));
+    level.tree.members.push_back({level.key, std::move(value)});
   }
   return true;
 }
@@ -66,7 +70,7 @@ bool JsonTreeBuilder::number_float(double value, const std::string& text) {
 }
 
 bool JsonTreeBuilder::key(std::string& name) {
-  if (open_.back().tree.members.contains(name)) {
+  if (!open_.back().names.insert(name).second) {
     throw BadValue("two members " + in_quotes(name) + " of one object");
   }
   open_.back().key = name;

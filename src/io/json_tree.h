@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +27,8 @@ class JsonError : public BadValue {
   using BadValue::BadValue;
 };
 
+struct JsonMember;
+
 // A value with all that is in it.
 struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's values does not throw
   // An integer beyond 64 bits keeps its digits, as a string in `scalar`.
@@ -35,7 +37,7 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   Kind kind = Kind::scalar;
   nlohmann::json scalar;  // null, a boolean, a number or a string
   std::vector<JsonTree> items;
-  std::map<std::string, JsonTree> members;
+  std::vector<JsonMember> members;  // in the order of the text, which columns of tables have
 
   [[nodiscard]] bool is_null() const { return kind == Kind::scalar && scalar.is_null(); }
   [[nodiscard]] bool is_number() const {
@@ -50,8 +52,16 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
 
   // Returns the member of an object, or null if there is none.
   [[nodiscard]] const JsonTree& member(const std::string& name) const;
+  // True if an object has the member.
+  [[nodiscard]] bool has_member(const std::string& name) const;
   // Returns the tree as JSON without white space.
   [[nodiscard]] std::string text() const;
+};
+
+// A value with its name in an object.
+struct JsonMember {  // NOLINT(bugprone-exception-escape)
+  std::string name;
+  JsonTree value;
 };
 
 // Builds the tree from the parser's events (nlohmann::json::sax_parse). Throws JsonError, and
@@ -91,7 +101,8 @@ class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   // An object or array that has begun and not ended.
   struct Level {  // NOLINT(bugprone-exception-escape)
     JsonTree tree;
-    std::string key;  // key of the next member, in an object
+    std::string key;              // key of the next member, in an object
+    std::set<std::string> names;  // of its members, of which there may be thousands
   };
 
   // Begins an object or array.

@@ -177,7 +177,7 @@ class OtherOrders(Files):
         self.run_tool("apply", "w.nc", "s.csv", "--value", "v", "-o", "a.csv")
         self.assertEqual((self.folder / "a.csv").read_text(), wanted)
         self.run_tool(*nearest, "to.geojson", "-o", "o.csv")
-        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,lat_,name,v\n1,2,1,p,3\n")
+        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,name,lat_,v\n1,2,p,1,3\n")
         self.run_tool(*nearest, "space.csv", "-o", "o.csv")
         self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,w,v\n0,90,own,9\n")
         self.run_tool(*nearest, "to.csv", "--lon", "z", "--lat", "lat", "-o", "o.csv", status=1)

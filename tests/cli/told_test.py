@@ -152,7 +152,7 @@ class Names(Told):
         self.succeed("apply", "w.nc", "v.csv", "--value", "x", "-o", "o.csv")
         with open(self.folder / "o.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual(list(rows[0]), ["lon", "lat", "lat_", "lat__", "x_", "x"])
+        self.assertEqual(list(rows[0]), ["lon", "lat", "x_", "lat_", "lat__", "x"])
         self.assertEqual([(r["x_"], r["x"], r["lat_"], r["lat__"]) for r in rows],
                          [(f"{k + 0.5}", "6", f"t{k}", f"{2**60 + 1 + k}") for k in range(3)])
         if netcdf_file is None:

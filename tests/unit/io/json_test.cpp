@@ -68,6 +68,13 @@ TEST(json_tree, knows_its_kind) {
   EXPECT_EQ(root.members.size(), 6U);
 }
 
+TEST(json_tree, keeps_the_order_of_members) {
+  const std::string text = R"({"name":1,"Zone":{"b":2,"a":3},"code":4})";
+  EXPECT_EQ(tree_of(text).text(), text);
+  EXPECT_TRUE(tree_of(text).has_member("code"));
+  EXPECT_FALSE(tree_of(text).has_member("a"));
+}
+
 TEST(json_tree, tells_of_objects_with_their_depth_and_member) {
   Seen seen;
   const JsonTree root = tree_of(R"({"a":{"b":[{"c":1}]},"taken":[{"d":2},3,{"e":4}]})", &seen);
