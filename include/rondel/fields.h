@@ -184,6 +184,11 @@ class FieldFile {
   /// uncompressed once then.
   RONDEL_API void keep_chunks(std::size_t bytes) const;
 
+  /// Returns how many bytes read() takes beside its result at least: those of the largest chunk of
+  /// netCDF-4, which is uncompressed as a whole, or of a block where the fields of a file are
+  /// interleaved. It is 0 for other formats, which are in memory.
+  [[nodiscard]] RONDEL_API std::uint64_t bytes_beside() const;
+
   /// Reads consecutive fields of an array, beginning with field `first`, as many as `out` has room
   /// for.
   /// \param array  its index in fields().arrays

@@ -131,6 +131,10 @@ void FieldFile::keep_chunks(std::size_t bytes) const {
   if (content_->slices) content_->slices->keep_chunks(bytes);
 }
 
+std::uint64_t FieldFile::bytes_beside() const {
+  return content_->slices ? content_->slices->bytes_beside() : 0;
+}
+
 void FieldFile::read(std::size_t array, std::size_t first, std::span<double> out,
                      const Execution& execution) const {
   if (content_->slices) {

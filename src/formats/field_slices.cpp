@@ -28,6 +28,7 @@
 #include "io/number.h"
 #include "io/wide_integers.h"
 #include "rondel/delaunay.h"
+#include "system/checked_product.h"
 #include "system/message_text.h"
 #include "system/parallel.h"
 
@@ -594,6 +595,24 @@ void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> o
 void FieldSlices::keep_chunks(std::size_t bytes) {
   bytes_kept_ = bytes;
   for (const SlicedVariable& source : sources_) file_.keep_chunks(*source.variable, bytes);
+}
+
+std::uint64_t FieldSlices::bytes_beside() const {
+  std::uint64_t most = 0;
+  for (const SlicedVariable& source : sources_) {
+    const std::vector<std::uint64_t> chunk = file_.chunk_of(*source.variable);
+    const bool has_chunks = std::ranges::any_of(chunk, [](std::uint64_t n) { return n > 1; });
+    std::uint64_t of_chunk = has_chunks ? io::size_of(source.variable->type) : 0;
+    for (const std::uint64_t length : chunk) {
+      if (!system::multiply_checked(of_chunk, length, of_chunk)) return ~std::uint64_t{0};
+    }
+    const std::uint64_t of_block =
+        source.blocks.are_apart()
+            ? 0
+            : source.blocks.block_of(0).count * source.num_points * std::uint64_t{sizeof(double)};
+    most = std::max({most, of_chunk, of_block});
+  }
+  return most;
 }
 
 void FieldSlices::read_points(std::size_t array, std::size_t field, std::size_t first_point,

@@ -39,6 +39,8 @@ class FieldSlices {
   [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
   // Sets how many bytes of chunks are kept for each array, like FieldFile::keep_chunks().
   void keep_chunks(std::size_t bytes);
+  // Returns how many bytes read() takes beside its result, like FieldFile::bytes_beside().
+  [[nodiscard]] std::uint64_t bytes_beside() const;
   // Reads fields `first` ... of an array into `out`, as many as fit, like FieldFile::read().
   void read(std::size_t array, std::size_t first, std::span<double> out, unsigned threads) const;
   // Reads points `first_point` ... of one field, like FieldFile::read_points().

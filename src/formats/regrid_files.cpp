@@ -194,6 +194,19 @@ class RegridJob {
     }
     report_.remarks = formats::remarks_of(source_, target_, fields_name_, fields_->fields());
     vectors_.emplace(*fields_, fields_name_, options_.vectors, source_, target_);
+    tell_of_reading();
+  }
+
+  // Adds a remark if what the file stores together does not fit into the memory.
+  void tell_of_reading() {
+    const std::uint64_t bytes = fields_->bytes_beside();
+    if (bytes <= options_.memory) return;
+    formats::add_remarks(fields_name_,
+                         {"reading takes " + formats::mebibytes_of(bytes) +
+                          " beside the memory of " + formats::mebibytes_of(options_.memory) +
+                          ", as a chunk is uncompressed as a whole, and times that are stored "
+                          "together are read together; nccopy -c makes other chunks"},
+                         report_.remarks);
   }
 
   // Sums what all processes have extrapolated.

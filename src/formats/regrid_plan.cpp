@@ -38,11 +38,6 @@ std::uint64_t cells_of_smallest_tile(const RegridTask& task) {
   return std::min(cells, std::max({task.cost.smallest_tile, 4 * root, row, inside}));
 }
 
-std::string mebibytes_of(std::uint64_t bytes) {
-  constexpr std::uint64_t mebi = std::uint64_t{1} << 20U;
-  return std::to_string((bytes + mebi - 1) / mebi) + "M";
-}
-
 std::uint64_t needed_to_open(const RegridTask& task) {
   return task.cost.of_source_opened * task.sources;
 }
@@ -152,6 +147,11 @@ RegridCost cost_of_cells(const RegridCells& source, const RegridCells& target, b
           .of_target_beside = beside(target) + of_place,
           .of_cell_in_tile = in_tile,
           .of_source_opened = are_compared ? of_compared : 0};
+}
+
+std::string mebibytes_of(std::uint64_t bytes) {
+  constexpr std::uint64_t mebi = std::uint64_t{1} << 20U;
+  return std::to_string((bytes + mebi - 1) / mebi) + "M";
 }
 
 RegridPlan plan_of(const RegridTask& task) {

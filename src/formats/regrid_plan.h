@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace rondel::formats {
 
@@ -75,5 +76,8 @@ struct RegridPlan {
 // Returns the plan with the least work. Throws InvalidInput if no plan keeps within the memory,
 // with the number of bytes that one needs.
 RegridPlan plan_of(const RegridTask& task);
+
+// Returns bytes in words, as options have them: "4127M", rounded up.
+std::string mebibytes_of(std::uint64_t bytes);
 
 }  // namespace rondel::formats

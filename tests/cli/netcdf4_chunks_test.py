@@ -140,6 +140,22 @@ class Chunks(unittest.TestCase):
             with self.subTest(memory=memory, threads=threads):
                 self.compare("many.nc", "--memory", memory, "--threads", threads)
 
+    def test_chunks_beyond_the_memory_are_told(self):
+        for name, order, chunk in (
+            ("chunk.nc", ("time", "lat", "lon"), (400, 36, 72)),
+            ("mixed.nc", ("lat", "lon", "time"), None),
+        ):
+            with netCDF4.Dataset(self.folder / name, "w") as data:
+                add_grid(data, 400)
+                field = data.createVariable("v", "f8", order, zlib=chunk is not None, chunksizes=chunk)
+                field[:] = 1.0
+            told = f"{name}: reading takes 8M beside the memory of 7M, as a chunk is uncompressed as a whole"
+            for memory, is_told in (("7M", True), ("9M", False)):
+                with self.subTest(name=name, memory=memory):
+                    done = self.run_tool("regrid", name, "grid:9", "-o", "out.nc", "--memory", memory)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual(told in done.stderr, is_told, done.stderr)
+
     def test_numbers_of_fewer_bits_than_their_bytes(self):
         """HDF5 has integers of any number of bits and floats with any exponent, which netCDF4-python cannot make."""
         hdf5 = ctypes.CDLL(str(LIBRARIES[0]))
