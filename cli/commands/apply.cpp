@@ -308,6 +308,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   // is written only if there are none.
   out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
   FieldWriter writer(options.common.target(), out, file.target, options.netcdf, job.execution());
+  tell(writer.remarks());
   AppliedCounts counts;
   for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
     for (double& value : applied) {

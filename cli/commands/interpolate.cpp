@@ -169,6 +169,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   tell(file.path, in.fields().remarks);
   drop_columns_of(out, targets);
   FieldWriter writer(options.common.target(), out, targets.side, options.netcdf, job.execution());
+  tell(writer.remarks());
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {

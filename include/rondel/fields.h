@@ -230,6 +230,9 @@ class FieldWriter {
   RONDEL_API void write(std::span<const double> values);
   /// Completes the file. \pre All values are written.
   RONDEL_API void finish();
+  /// Returns sentences, with the name of the file, about what it does not have, though the fields do:
+  /// dimensions along which records can be appended, in classic netCDF that is written to a pipe.
+  [[nodiscard]] RONDEL_API std::vector<std::string> remarks() const;
 
  private:
   struct BegunFields;

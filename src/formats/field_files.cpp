@@ -210,6 +210,12 @@ FieldWriter::~FieldWriter() = default;
 
 void FieldWriter::write(std::span<const double> values) { output_->sink->write(values); }
 
+std::vector<std::string> FieldWriter::remarks() const {
+  std::vector<std::string> remarks = output_->sink->remarks();
+  for (std::string& remark : remarks) remark.insert(0, output_->file.path() + ": ");
+  return remarks;
+}
+
 void FieldWriter::finish() {
   output_->sink->finish();
   output_->file.commit();

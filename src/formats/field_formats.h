@@ -55,6 +55,8 @@ class FieldSink {
   virtual void write(std::span<const double> values) = 0;
   // Completes the file after the last value.
   virtual void finish() = 0;
+  // Returns sentences about what the file does not have, though the fields do.
+  [[nodiscard]] virtual std::vector<std::string> remarks() const { return {}; }
 };
 // Each of these begins a file. `job` refers to objects that must live until finish().
 std::unique_ptr<FieldSink> begin_fields_csv(io::AtomicFile& file, const FieldsToWrite& job);

@@ -230,6 +230,7 @@ class NetcdfSink : public FieldSink {
     }
   }
   void finish() override { out_.finish(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override { return out_.remarks(); }
 
  private:
   // Defines dimensions, axes, places, columns and arrays, each with a name that is still free.

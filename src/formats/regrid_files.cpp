@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -166,6 +167,7 @@ class RegridJob {
     // All ranks have come so far before the file appears.
     if (ranks_.size > 1) gather_extrapolated();
     report_.missing = output->num_missing();
+    std::ranges::move(output->remarks(), std::back_inserter(report_.remarks));
     output->finish();
     return std::move(report_);
   }

@@ -45,6 +45,10 @@ class RegridOutput {
   void write(std::span<const double> values);
   // Completes the file. Precondition: all values are written.
   void finish();
+  // Returns what FieldWriter::remarks() says.
+  [[nodiscard]] std::vector<std::string> remarks() const {
+    return writer_ ? writer_->remarks() : std::vector<std::string>();
+  }
   // Returns the number of values that were missing.
   [[nodiscard]] std::size_t num_missing() const { return num_missing_; }
 

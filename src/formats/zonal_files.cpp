@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <span>
@@ -169,6 +170,7 @@ class ZonalJob {
       report_.fields += in.arrays[a].num_fields();
     }
     report_.missing = output.num_missing();
+    std::ranges::move(output.remarks(), std::back_inserter(report_.remarks));
     output.finish();
     return std::move(report_);
   }

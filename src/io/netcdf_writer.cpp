@@ -165,6 +165,20 @@ void NetcdfWriter::choose_records() {
   }
 }
 
+std::vector<std::string> NetcdfWriter::remarks() const {
+  std::string names;
+  for (std::size_t d = 0; d < dimensions_.size() && netcdf4_ == nullptr; ++d) {
+    // A dimension of length 0 is that of records.
+    const bool is_limited = dimensions_[d].is_unlimited && d != records_ && dimensions_[d].size > 0;
+    if (is_limited) names += (names.empty() ? "" : ", ") + dimensions_[d].name;
+  }
+  if (names.empty()) return {};
+  return {"no records can be appended along " + names + ", as classic netCDF has " +
+          (file_.has_places() ? "one dimension of records, in front of all others"
+                              : "no dimension of records in a pipe") +
+          "; netCDF-4 can"};
+}
+
 bool NetcdfWriter::is_of_records(const NetcdfVariable& variable) const {
   return std::ranges::any_of(variable.dimensions, [&](std::size_t dimension) {
     return dimension == records_ || dimensions_[dimension].size == 0;

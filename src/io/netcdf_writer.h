@@ -40,7 +40,8 @@ class Netcdf4Output;
 //
 // A dimension may be unlimited, so that others can append records. In a classic file that is one,
 // the first that is the first dimension of all variables that have it; more are limited there, and
-// so are all in a file that is written directly, since records of variables take turns.
+// so are all in a file that is written directly, since records of variables take turns. remarks()
+// names them.
 class NetcdfWriter {
  public:
   explicit NetcdfWriter(AtomicFile& file);
@@ -66,6 +67,9 @@ class NetcdfWriter {
   // format that can hold the variables. So many threads compress. Also throws BadValue if netCDF-C is
   // needed and not installed.
   void begin(const NetcdfOptions& options, unsigned threads = 1);
+  // Returns a sentence that names the dimensions that are limited, though they should not be; after
+  // begin().
+  [[nodiscard]] std::vector<std::string> remarks() const;
 
   // Writes the next values of the variable. T must be its type: char, int8_t, int32_t, int64_t,
   // float or double.

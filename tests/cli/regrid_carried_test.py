@@ -111,7 +111,7 @@ class Carried(unittest.TestCase):
                     add(fixed, name, variable.dimensions, variable[...], variable.dtype, **variable.__dict__)
             for end in ("nc", "nc4"):
                 for arguments in ((), ("--tile", "300"), ("--value", "t")):
-                    self.run_tool("regrid", "in.nc", "grid:30", *arguments, "-o", f"out.{end}")
+                    told = self.run_tool("regrid", "in.nc", "grid:30", *arguments, "-o", f"out.{end}")
                     self.run_tool("regrid", "fixed.nc", "grid:30", *arguments, "-o", f"fixed_out.{end}")
                     with netCDF4.Dataset(self.folder / f"out.{end}") as out, netCDF4.Dataset(self.folder / f"fixed_out.{end}") as fixed:
                         self.assertEqual(list(out.variables), list(fixed.variables))
@@ -121,12 +121,30 @@ class Carried(unittest.TestCase):
                         # In a classic file records are the first dimension of all that have them.
                         is_classic = end == "nc" and "turned" in out.variables
                         self.assertEqual(out.dimensions["time"].isunlimited(), not is_classic)
+                    why = "one dimension of records, in front of all others; netCDF-4 can"
+                    remark = f"out.nc: no records can be appended along time, as classic netCDF has {why}"
+                    self.assertEqual(told, [remark] if is_classic else [])
                 with netCDF4.Dataset(self.folder / f"out.{end}", "a") as out:
                     out["t"][3] = 7
                     self.assertEqual(out["t"].shape[0], 4)
-            piped = subprocess.run([TOOL, "regrid", "in.nc", "grid:30", "-o", "-", "--format", "nc", "--quiet"], cwd=self.folder, capture_output=True, check=True)
-            with netCDF4.Dataset("piped", memory=piped.stdout) as out:
-                self.assertFalse(out.dimensions["time"].isunlimited())
+            self.run_tool("remap", "in.nc", "grid:30", "-o", "weights.nc")
+            for command in (
+                ("regrid", "in.nc", "grid:30"),
+                ("regrid", "in.nc", "grid:30", "--statistics", "max"),
+                ("interpolate", "in.nc", "--to", "grid:30", "--method", "nearest"),
+                ("apply", "weights.nc", "in.nc"),
+            ):
+                for form in ("nc", "nc4"):
+                    piped = subprocess.run(
+                        [TOOL, *command, "-o", "-", "--format", form, "--quiet"],
+                        cwd=self.folder,
+                        capture_output=True,
+                        check=True,
+                    )
+                    with netCDF4.Dataset("piped", memory=piped.stdout) as out:
+                        self.assertEqual(out.dimensions["time"].isunlimited(), form == "nc4")
+                    remark = "<stdout>: no records can be appended along time, as classic netCDF has no dimension of"
+                    self.assertEqual(remark in piped.stderr.decode(), form == "nc")
 
     def write_rotation(self, path, axis, kind="f8"):
         """The wind of a solid rotation around an axis, with a missing value."""
