@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray
 
+from ._errors import warn_caller
 from ._places import Places
 from ._values import unpacked
 from ._voronoi import SphericalVoronoi
@@ -55,10 +56,28 @@ def plot_field(
     label = _label(array) if label is None else label
     if places.have_cells:
         return places.cells(None).plot(field.values, ax, label=label, **options)
+    _tell_of_lost_cells(data, array, places)
     pairs, numbers = places.located()
     values = field.values.reshape(-1)
     diagram = SphericalVoronoi.from_lonlat(pairs[:, 0], pairs[:, 1], duplicates="merge")
     return diagram.plot(values if numbers is None else values[numbers], ax, label=label, **options)
+
+
+def _tell_of_lost_cells(data: Any, array: Any, places: Places) -> None:
+    """Warns if attributes say where the cells are, and what they name is not there, as where a
+    variable is taken out of a Dataset.
+    """
+    named = [(array, "grid_mapping"), (array, "mesh")]
+    named += [(item, "bounds") for item in places.coordinates.values()]
+    known = data.variables if isinstance(data, xarray.Dataset) else array.coords
+    texts = [str({**item.encoding, **item.attrs}.get(key, "")) for item, key in named]
+    words = " ".join(texts).replace(":", " ").split()
+    if lost := [word for word in words if word not in known]:
+        warn_caller(
+            f"the cells of {array.name!r} are not known, as there is no {', '.join(lost)}, which "
+            "its attributes name: the Voronoi cells of its places are drawn; "
+            f"dataset.rondel.plot({array.name!r}) of its Dataset knows them"
+        )
 
 
 def _label(array: Any) -> str:

@@ -187,7 +187,8 @@ class RondelAccessor:
         Cells are those of the grid or mesh: by the bounds of the coordinates, half way between
         longitudes and latitudes along axes, or those of a named grid such as HEALPix. Places
         without cells, such as stations, have their Voronoi cells; those without a longitude or
-        latitude are left out.
+        latitude are left out. A warning says so where attributes name cells that are not there,
+        as in a DataArray without the grid mapping of its Dataset.
 
         Parameters
         ----------

@@ -4,6 +4,7 @@
 
 import functools
 import sys
+import warnings
 
 import clouds
 import numpy as np
@@ -491,6 +492,30 @@ def test_a_regridded_field_is_drawn_on_the_cells_of_its_grid(axes):
     found = ax.collections[0]
     assert set(found.get_array()) == set(pixels.values)
     assert bar_of(ax).get_xlabel() == "air temperature (K)"
+
+
+def test_cells_that_are_not_there_are_told(axes):
+    pixels = rondel.regrid(dataset()[["t"]], "healpix:2").reset_coords("crs")
+    pixels.t.attrs["grid_mapping"] = "crs"
+    lon, lat = np.meshgrid(np.arange(0.0, 40, 10), np.arange(0.0, 30, 10))
+    corners = np.stack([lon - 5, lon + 5, lon + 5, lon - 5], -1)
+    dims = ("y", "x")
+    bounded = pixels.drop_vars(pixels.variables).assign(
+        {
+            "t": (dims, lon, {"coordinates": "lon lat"}),
+            "lon": (dims, lon, {"units": "degrees_east", "bounds": "lon_corners"}),
+            "lat": (dims, lat, {"units": "degrees_north", "bounds": "lat_corners"}),
+            "lon_corners": ((*dims, "nv"), corners),
+            "lat_corners": ((*dims, "nv"), np.stack([lat - 5, lat - 5, lat + 5, lat + 5], -1)),
+        }
+    )
+    bounded = bounded.set_coords(["lon", "lat"])
+    for data, lost in ((pixels, "crs"), (bounded, "lat_corners, lon_corners")):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            data.rondel.plot("t", axes(), coast=False)
+        with pytest.warns(UserWarning, match=f"there is no {lost}, which its attributes name"):
+            data.t.rondel.plot(ax=axes(), coast=False)
 
 
 def test_stations_of_xarray_have_their_cells():
