@@ -112,7 +112,8 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       "constants are kept) or destarea (the target's area, so integrals are)");
   parser
       .add_option("--max-missing", options.regrid.max_missing,
-                  "The share of a target that may lack values, from 0 to 1 (default 0.5)")
+                  "The share of a target that no source may cover, and of its covered part in\n"
+                  "which values may be missing, from 0 to 1 (default 0.5 for both)")
       ->check([](const std::string& text) { return range_error(text, 0, 1); })
       ->type_name("SHARE");
   const CLI::Option* const overlap = add_word<CellOverlap>(

@@ -83,8 +83,8 @@ def regrid(
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
     max_missing : float, optional
-        The share of a target that may lack values, from 0 to 1; by default 0.5: with conservative
-        methods that no source covers, and with all methods whose sources have none. It is that of
+        The share of a target that no source may cover, with conservative methods, and of its
+        covered part in which values may be missing, from 0 to 1; by default 0.5 for both, as in
         `regrid_file`; with 'conservative_2nd' gradients end at missing values, as there.
     output_chunks : int, tuple, dict or str, optional
         The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
