@@ -141,9 +141,6 @@ struct FieldExtras {
   bool has_others = false;
   /// Whether FieldSet::points and positions have the places. They take 40 bytes for each.
   bool has_positions = true;
-  /// Variables that are coordinates of the points, and no fields unless they are named, although no
-  /// convention says so.
-  std::vector<std::string> coordinates = {};
 };
 
 /// A room for FieldFile::keep_chunks() in bytes, in which chunks of 73 times on 0.25 degrees fit.

@@ -11,7 +11,10 @@
 
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
+#include "formats/grid_of_file.h"
+#include "io/bad_value.h"
 #include "io/number.h"
+#include "rondel/named_grids.h"
 
 namespace rondel::formats {
 namespace {
@@ -35,7 +38,6 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
       num_points_(wanted.num_points),
       shape_(wanted.shape.begin(), wanted.shape.end()),
       wanted_(wanted.places),
-      given_coordinates_(wanted.extras.coordinates),
       headers_(headers_of(file)),
       coordinates_(headers_),
       parts_of_grids_(parts_of_grids(headers_)),
@@ -45,6 +47,7 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
   if (wanted_.positions.size() != num_points_) wanted_.positions = {};
   wanted_places_ =
       PlaceList(std::vector<LonLat>(wanted_.positions.begin(), wanted_.positions.end()));
+  take_pixels();
   std::vector<const io::VariableInFile*> fields(variables.begin(), variables.end());
   // Coordinates are fields only if they are named.
   if (wanted.names.empty()) {
@@ -52,6 +55,22 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
   }
   choose_places(fields);
   choose_dimension_of_cells(fields);
+}
+
+void FieldDimensionFinder::take_pixels() {
+  const GridOfFile pixels = listed_pixels(file_);
+  list_of_pixels_ = pixels.list;
+  if (list_of_pixels_.empty() || wanted_.positions.empty()) return;
+  const NamedGrid grid(pixels.name);
+  const bool are_all = pixels.numbers.empty();
+  const std::size_t count = are_all ? grid.num_cells() : pixels.numbers.size();
+  for (std::size_t i = 0; i < count && count == wanted_.positions.size(); ++i) {
+    const LonLat& place = wanted_.positions[i];
+    const LonLat center = grid.center(are_all ? i : pixels.numbers[i]);
+    if (has_no_place(place) || is_same_place(center, place, wanted_.max_apart_deg)) continue;
+    throw io::BadValue("variable " + io::in_quotes(list_of_pixels_) +
+                       " has the numbers of pixels that are at other places than the source");
+  }
 }
 
 const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
@@ -227,7 +246,8 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
   const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
   const VariableHeader& header = headers_[index];
   if (header.dimensions.size() == 1 && header.dimensions[0] == header.name) return true;
-  if (std::ranges::count(given_coordinates_, header.name) != 0) return true;
+  if (header.name == list_of_pixels_) return true;
+  if (pixel_list_of(header, false) == PixelList::stated) return true;
   if (is_named_like_degrees(header) || parts_of_grids_[index] || are_measures_[index]) return true;
   if (coordinate_evidence(header, CoordinateKind::lon) > 0 ||
       coordinate_evidence(header, CoordinateKind::lat) > 0) {

@@ -148,6 +148,9 @@ class FieldDimensionFinder {
                                    const PlaceList& b) const;
   // True if the places of a candidate are those that all fields are at.
   [[nodiscard]] bool is_at_anchor(const PossiblePlaces& candidate) const;
+  // Takes the variable with the numbers of pixels, if there is one. Throws BadValue if these are at
+  // other places than those that are wanted.
+  void take_pixels();
   // Sets the anchor, and with it the number of points if that is not given.
   void choose_places(std::span<const io::VariableInFile* const> variables);
   // Looks for a variable of the file that is at the wanted places, to name them in messages.
@@ -200,7 +203,7 @@ class FieldDimensionFinder {
   // The lengths of the points' grid; empty if they are not known.
   std::vector<std::uint64_t> shape_;
   WantedPlaces wanted_;
-  std::vector<std::string> given_coordinates_;
+  std::string list_of_pixels_;  // a variable; empty if there is none
   PlaceList wanted_places_;
   std::vector<VariableHeader> headers_;
   CoordinateSearch coordinates_;

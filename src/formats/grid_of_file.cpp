@@ -152,14 +152,14 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
         const auto center = [&](std::size_t i) { return grid.center(are_all ? i : numbers[i]); };
         const std::uint64_t count = are_all ? grid.num_cells() : numbers.size();
         if (!may_be_at(reader, {count, nullptr, center})) return {};
-        return {name, numbers, {}, reader.variables()[pixels->variable].name};
+        return {name, numbers, {}};
       }
     }
     const auto center = [&](std::size_t i) { return grid.center(i); };
     // A file may also have some of the grid's points, with their longitudes and latitudes.
     if ((has(grid.num_cells()) || std::ranges::all_of(grid.shape(), has)) &&
         may_be_at(reader, {grid.num_cells(), grid.axes(), center})) {
-      return {name, {}, {}, {}};
+      return {name, {}, {}};
     }
     return needs_cells ? cells_at_places(reader, grid) : GridOfFile();
   } catch (const InvalidInput& error) {
@@ -211,6 +211,27 @@ bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
     has_others = true;
   }
   return !has_others;
+}
+
+GridOfFile listed_pixels(const io::NetcdfReader& reader) {
+  const auto listed_by = [&](std::span<const io::NetcdfAttribute> attributes,
+                             const std::string& owner) -> GridOfFile {
+    try {
+      const std::string name = grid_named_by(mapping_of(attributes));
+      if (!name.starts_with("healpix:")) return {};
+      std::optional<NumberedPixels> pixels = pixels_of(reader, NamedGrid(name), owner);
+      if (!pixels) return {};
+      return {name, std::move(pixels->numbers), {}, reader.variables()[pixels->variable].name};
+    } catch (const InvalidInput&) {
+      return {};
+    }
+  };
+  GridOfFile found = listed_by(reader.attributes(), "");
+  for (const io::VariableInFile& variable : reader.variables()) {
+    if (!found.name.empty()) break;
+    found = listed_by(variable.attributes, variable.name);
+  }
+  return found;
 }
 
 // A pipe and standard input can be read once, which is left to the reader of their content.

@@ -38,8 +38,12 @@ struct GridOfFile {
       {};  // those of its cells that are in the file; empty for all in order
   // The lengths of the dimensions of these cells, empty for one.
   std::vector<std::uint64_t> shape = {};
-  std::string list = {};  // the variable with the numbers, if there is one
+  std::string list = {};  // the variable with the numbers; of listed_pixels() alone
 };
+
+// Returns the pixels of HEALPix whose numbers a variable of the file has, or no name: also where the
+// file has other places, and where the numbers are none of pixels.
+GridOfFile listed_pixels(const io::NetcdfReader& reader);
 
 // Returns the grid that netCDF says its points are on: if it has the numbers of pixels, or else the
 // dimensions of that grid and no other places; and, with `needs_cells`, if its places are centers of

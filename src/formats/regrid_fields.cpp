@@ -67,12 +67,7 @@ std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std
   } else if (is_netcdf_file(file_and_variable(in).first)) {
     require_places_of(in, side);
   }
-  FieldExtras extras{.has_others = true, .has_positions = false};
-  // The list of pixels of another file says nothing of this one.
-  const bool is_own_list =
-      !side.list().empty() &&
-      file_and_variable(in).first.path == file_and_variable({side.name(), {}}).first.path;
-  if (is_own_list) extras.coordinates = {side.list()};
+  const FieldExtras extras{.has_others = true, .has_positions = false};
   return std::make_unique<FieldFile>(file_and_variable(in).first, names, side.num_places(),
                                      ReadOptions{}, side.shape(), WantedPlaces{places}, extras);
 }

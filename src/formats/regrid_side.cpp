@@ -95,7 +95,6 @@ RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, boo
     read_file(file, has_cells, execution, names);
     return;
   }
-  list_ = grid.list;
   try {
     NamedGrid named(grid.name, options.sides);
     if (!grid.numbers.empty()) {

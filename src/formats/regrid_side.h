@@ -33,8 +33,6 @@ class RegridSide {
              const Execution& execution, const std::vector<std::string>& names = {});
 
   [[nodiscard]] const std::string& name() const { return name_; }
-  // Returns the variable of its file with the numbers of its cells; an empty text if there is none.
-  [[nodiscard]] const std::string& list() const { return list_; }
   [[nodiscard]] std::size_t num_places() const;
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   [[nodiscard]] const std::vector<std::int32_t>& mask() const { return mask_; }
@@ -81,7 +79,6 @@ class RegridSide {
 
   std::string name_;
   FileName file_;
-  std::string list_;
   CellFileOptions options_;
   std::optional<NamedGrid> named_;
   std::optional<LonLatGrid> lines_;  // of a file with a grid along axes

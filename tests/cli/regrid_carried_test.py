@@ -334,6 +334,33 @@ class Carried(unittest.TestCase):
             said = self.run_tool(*arguments, "-o", "x.nc", status=1)
             self.assertIn("points of a grid with a name, such as healpix:7 or O320", said[0])
 
+    def test_lists_of_pixels_are_no_fields(self):
+        pixels = np.array([5, 3, 1, 100, 77, 20])
+        for name, texts in (("mapped.nc", {"grid_mapping": "crs"}), ("stated.nc", {})):
+            with netCDF4.Dataset(self.folder / name, "w") as file:
+                file.createDimension("cell", 6)
+                add(file, "t", ("cell",), np.arange(6.0), **texts)
+                add(file, "ipix", ("cell",), pixels, "i4", **({} if texts else {"standard_name": "healpix_index"}))
+                mapping = {"grid_mapping_name": "healpix", "refinement_level": 2, "indexing_scheme": "nested"}
+                if texts:
+                    add(file, "crs", (), 0, "i4", **mapping)
+        self.run_tool("interpolate", "mapped.nc", "--to", "grid:30", "--weights", "w.nc", "-o", "out.nc")
+        for arguments in (
+            ("interpolate", "mapped.nc", "--to", "grid:30"),
+            ("regrid", "stated.nc", "grid:30", "--method", "nearest", "--source", "mapped.nc"),
+            ("apply", "w.nc", "mapped.nc"),
+            ("apply", "w.nc", "stated.nc"),
+        ):
+            self.assertEqual(self.run_tool(*arguments, "-o", "out.nc"), [])
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                self.assertEqual(set(out.variables), {"lat", "lon", "t"}, arguments)
+        with netCDF4.Dataset(self.folder / "mapped.nc", "a") as file:
+            file["ipix"][:] = pixels[::-1]
+        said = self.run_tool("apply", "w.nc", "mapped.nc", "-o", "out.nc", status=1)
+        self.assertEqual(
+            said, ['mapped.nc: variable "ipix" has the numbers of pixels that are at other places than the source']
+        )
+
     def test_fields_may_be_named_like_coordinates(self):
         """What is written as a field is read as one, whatever its column is called; its values are those of any other."""
         names = "latitude longitude lat lon TLAT nav_lon lonVertex lat_bnds lon_bnds verticesOnCell indexToCellID grid_corner_lon".split()

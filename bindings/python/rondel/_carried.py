@@ -128,7 +128,8 @@ def carried(
 
     mapping, _ = wanted.mapping
     mapping_name = _free_name(data, "crs")
-    _tell_of_coordinates(data, source)
+    lists = source.lists_in(data)
+    _tell_of_coordinates(data, source.own_names | lists, source)
     _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
         name = names_apart([data.name], data, wanted).get(data.name, data.name)
@@ -142,7 +143,7 @@ def carried(
     measures_there = measures_of_cells(data)
     measures = [str(name) for name in data.data_vars if str(name) in measures_there]
     measures = [name for name in measures if name not in source.own_names | parts]
-    own_names = source.own_names | parts | {*measures}
+    own_names = source.own_names | lists | parts | {*measures}
     given, fields_of = data, [name for name in data.data_vars if str(name) not in own_names]
     apart = names_apart(fields_of, data, wanted)
     data = data.rename_vars(apart)
@@ -323,9 +324,8 @@ def _tell_of_chunks(data: Any, output_chunks: OutputChunks) -> None:
     warn_caller("output_chunks has no effect on arrays that are not of Dask")
 
 
-def _tell_of_coordinates(data: Any, source: Places) -> None:
+def _tell_of_coordinates(data: Any, own_names: set[str], source: Places) -> None:
     """Warns of coordinates of the places, such as their areas, which are no fields to carry."""
-    own_names = source.own_names
     lost = [
         str(name)
         for name, array in data.coords.items()

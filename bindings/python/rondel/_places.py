@@ -236,6 +236,27 @@ class Places:
                     "order"
                 )
 
+    def lists_in(self, data: Any) -> set[str]:
+        """The variable of the data with the numbers of their pixels, or none; refuses
+        pixels that are at other places than these.
+        """
+        try:
+            name, pixels = grid_of(data) or ("", None)
+        except ValueError:
+            pixels = None  # numbers that are none of pixels
+        if pixels is None:
+            return set()
+        own, dim, numbers = pixels
+        if (dim,) == self.dims and own != self._list:
+            cells = CellSet.named(name) if numbers is None else CellSet._some(name, numbers)
+            centers = cells._degrees()
+            if len(centers) == self.lon.size and not self.are_at(centers):
+                raise ValueError(
+                    f"{own!r} of the data has the numbers of pixels that are at other places than "
+                    "the source"
+                )
+        return {own}
+
     def require_places_of(self, data: xarray.DataArray) -> None:
         """Refuses data whose own longitudes and latitudes are others, whatever their names are."""
         elsewhere = ""

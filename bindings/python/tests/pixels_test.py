@@ -107,6 +107,33 @@ def test_lists_of_pixels_have_many_names_and_are_no_fields(tmp_path, name, dim, 
         assert list(file.data_vars) == ["t", "more"]
 
 
+@pytest.mark.parametrize("is_coordinate", [False, True])
+def test_lists_of_pixels_are_no_fields_of_another_source(tmp_path, is_coordinate):
+    data = pixels(np.arange(768), with_numbers=False).assign(ipix=("cell", np.arange(768)))
+    turned = data.isel(cell=slice(None, None, -1))
+    if is_coordinate:
+        data, turned = data.set_coords("ipix"), turned.set_coords("ipix")
+    wanted = rondel.regrid(data, "grid:30")
+    regridder = rondel.Regridder("healpix:3:ring", "grid:30", "conservative")
+    found = regridder(data)
+    assert list(found.data_vars) == ["t"]
+    np.testing.assert_array_equal(found.t, wanted.t)
+    data.to_netcdf(tmp_path / "in.nc")
+    turned.to_netcdf(tmp_path / "turned.nc")
+    rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc", source="healpix:3:ring")
+    with xarray.open_dataset(tmp_path / "out.nc") as file:
+        assert list(file.data_vars) == ["t"]
+    why = "has the numbers of pixels that are at other places than the source"
+    for source, name, given in (
+        ("healpix:3:ring", "turned.nc", turned),
+        ("healpix:3", "in.nc", data),
+    ):
+        with pytest.raises(ValueError, match=why):
+            rondel.Regridder(source, "grid:30", "conservative")(given)
+        with pytest.raises(ValueError, match=why):
+            rondel.regrid_file(tmp_path / name, "grid:30", tmp_path / "out.nc", source=source)
+
+
 def test_other_integers_on_pixels_are_fields(tmp_path):
     counts = np.arange(768) % 7
     data = pixels(np.arange(768), with_numbers=False).assign(
