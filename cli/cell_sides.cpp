@@ -57,7 +57,7 @@ CellForm form_of(const FileName& side) {
   if (NamedGrid::is_name(side.path)) return CellForm::grid;
   require_grid_or_file(side);
   if (can_read_cells(side)) return CellForm::netcdf;
-  return is_geojson(side) ? CellForm::polygons : CellForm::sites;
+  return can_read_polygons(side) ? CellForm::polygons : CellForm::sites;
 }
 
 CellSet cells_of_side(const FileName& side, const CellSideOptions& options, Job& job) {

@@ -47,7 +47,7 @@ std::string text_of_json(const FactsJson& json) {
   return json.dump(2, ' ', false, FactsJson::error_handler_t::replace) + '\n';
 }
 
-OtherFacts facts_of(const FileName& file, const FeatureTable& table, const Seconds& seconds) {
+OtherFacts facts_of(const FeatureTable& table, const Seconds& seconds) {
   const FeatureKinds kinds = kinds_of(table);
   const std::size_t size = table.lines.size();
   const auto located = static_cast<std::size_t>(std::ranges::count(table.is_located, true));
@@ -72,8 +72,7 @@ OtherFacts facts_of(const FileName& file, const FeatureTable& table, const Secon
   text += "commands that take it: overlay, relate, buffer, simplify, triangulate";
   if (kinds.polygons > 0) text += ", repair";
   if (kinds.polygons > 0 && kinds.points + kinds.lines == 0) {
-    text +=
-        is_geojson(file) ? ", regrid and remap as a target, regions --clip" : ", regions --clip";
+    text += ", regrid and remap as a target, regions --clip";
   }
   return {text_of_json(json), text + '\n'};
 }
@@ -131,7 +130,7 @@ std::optional<OtherFacts> other_facts_of(const CommonOptions& common, Job& job) 
   if (is_geojson(file) || is_of_gdal(file)) {
     return facts_if_read([&] {
       const PolygonOptions options = {.invalid = InvalidPolygons::repair};
-      return facts_of(file, read_features(file, options, job.execution()), job.seconds());
+      return facts_of(read_features(file, options, job.execution()), job.seconds());
     });
   }
   const auto read = [&] {

@@ -201,7 +201,7 @@ void add_sides(CLI::App& parser, CheckWeightsOptions& options) {
   std::string* const sides[] = {&options.source, &options.target};
   const char* const whats[] = {
       "The cells of the sources, to compare the weights with exact areas: netCDF, the name\n"
-      "of a grid, .geojson, or sites, as for rondel remap",
+      "of a grid, polygons, or sites, as for rondel remap",
       "The cells of the targets, in the same forms"};
   for (std::size_t k = 0; k < 2; ++k) {
     parser.add_option(names[k], *sides[k], whats[k])->type_name("GRID");

@@ -212,15 +212,15 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   const CLI::Option* const invalid = add_invalid_option(parser, cells.invalid);
   const CLI::Option* const corners = add_corners_option(parser, cells.corners);
   const auto has_polygons = [&options] {
-    return is_geojson(options.target) || is_geojson(options.source);
+    return can_read_polygons(options.target) || can_read_polygons(options.source);
   };
-  require_effect(options.common, edges, has_polygons, "without polygons in .geojson");
+  require_effect(options.common, edges, has_polygons, "without polygons");
   require_effect(
       options.common, invalid,
       [&options, has_polygons] {
         return has_polygons() || options.regrid.cells.corners == MissingCorners::made;
       },
-      "without polygons in .geojson or --corners made");
+      "without polygons or --corners made");
   for (const CLI::Option* const option : {sides, corners}) {
     require_effect(
         options.common, option,
@@ -270,8 +270,10 @@ Command add_regrid_command(CLI::App& tool) {
       ->required()
       ->type_name("");
   parser
-      ->add_option("TARGET", options->target,
-                   "The name of a grid (below), netCDF with cells, or .geojson with polygons")
+      ->add_option(
+          "TARGET", options->target,
+          "The name of a grid (below), netCDF with cells, or polygons: .geojson, and with GDAL\n"
+          "installed .gpkg .fgb .shp .parquet")
       ->required()
       ->type_name("");
   add_output_option(*parser, options->common, "Where to write the fields: .nc .nc4 .csv .tsv .npy")

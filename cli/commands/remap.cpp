@@ -112,11 +112,11 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       "without a grid");
   require_effect(
       options.common, edges, [has_side] { return has_side(CellForm::polygons); },
-      "without polygons in .geojson");
+      "without polygons");
   require_effect(
       options.common, invalid,
       [has_side] { return has_side(CellForm::netcdf) || has_side(CellForm::polygons); },
-      "without cells in netCDF and polygons in .geojson");
+      "without cells in netCDF and polygons");
   require_effect(
       options.common, corners, [has_side] { return has_side(CellForm::netcdf); },
       "without cells in netCDF");
@@ -137,8 +137,9 @@ Command add_remap_command(CLI::App& tool) {
   add_input_options(
       *parser, options->common,
       "The cells that have the values: netCDF with those of a model or a grid, the name\n"
-      "of a grid (below), .geojson with polygons, or a file of sites, whose Voronoi cells\n"
-      "they are: .csv .tsv .xyz .txt .npy, or - for standard input",
+      "of a grid (below), polygons in .geojson or with GDAL installed .gpkg .fgb .shp\n"
+      ".parquet, or a file of sites, whose Voronoi cells they are: .csv .tsv .xyz .txt .npy,\n"
+      "or - for standard input",
       [given = options.get()] {
         std::vector<FileName> sites = {given->source_file(), given->target_file()};
         std::erase_if(sites, [](const FileName& file) { return form_of(file) != CellForm::sites; });

@@ -111,8 +111,8 @@ class RONDEL_API CellSet {
   /// \throws FileError with the file's name for cells that polygons() or lonlat_grid() refuses
   static CellSet of(CellTable table, GridSides sides = GridSides::parallels,
                     const Execution& execution = {});
-  /// Reads the cells of a file: netCDF in any convention of read_cells(), or the polygons of
-  /// .geojson or .json. Of netCDF that names the grid of its points (grid_named_by() of
+  /// Reads the cells of a file: netCDF in any convention of read_cells(), or polygons, as
+  /// can_read_polygons() tells. Of netCDF that names the grid of its points (grid_named_by() of
   /// rondel/named_grids.h), as regrid_file() writes it, they are the cells of that grid, and
   /// facts().name is its name. \throws what of(), read_cells() and read_polygons() throw
   static CellSet read(const FileName& file, const CellFileOptions& options = {},

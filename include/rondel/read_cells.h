@@ -128,6 +128,12 @@ RONDEL_API CellTable read_cells(const FileName& file,
 /// True if read_cells() reads files of this format; the name of a grid (`FILE.nc:NAME`) is ignored.
 RONDEL_API bool can_read_cells(const FileName& file);
 
+/// True if read_polygons() reads polygons from the file: of .geojson and .json, and by GDAL of .gpkg,
+/// .fgb, .shp and .parquet whose first feature with a place has some; other files of GDAL, and
+/// those from a pipe, have sites.
+/// \throws FileError for a file of GDAL's formats that cannot be read
+RONDEL_API bool can_read_polygons(const FileName& file);
+
 /// Checks a text that is the name of a grid (NamedGrid) or of a file.
 /// \throws FileError for one that is neither and looks like no file: "healpx:7", which has no ending
 ///         and no folder. A missing file that looks like one is left to its reader.

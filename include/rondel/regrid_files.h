@@ -108,7 +108,8 @@ struct RegridFileReport {
 /// Regrids the fields of a file.
 ///
 /// in      netCDF: all variables at the places of the source, for all times and levels
-/// target  the name of a grid (NamedGrid), netCDF with cells, or .geojson with polygons
+/// target  the name of a grid (NamedGrid), netCDF with cells, or polygons
+///         (can_read_polygons() of rondel/read_cells.h)
 /// out     netCDF with the same variables at the target: float if the source has floats or packed
 ///         integers, otherwise double; with the attributes, the axes, the variables without places
 ///         (bounds of times) and the attributes of the file. Or .csv, .tsv, .npy, as write_fields()

@@ -21,6 +21,7 @@
 #include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
 #include "formats/own_centers.h"
+#include "formats/sites_gdal.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
@@ -217,6 +218,13 @@ void require_grid_or_file(const FileName& side) {
 
 bool can_read_cells(const FileName& file) { return is_netcdf_file(file_and_variable(file).first); }
 
+// A file may have the ending of GeoJSON and be netCDF all the same; its first bytes decide.
+bool can_read_polygons(const FileName& file) {
+  if (io::is_geojson(file)) return !can_read_cells(file);
+  return formats::is_read_by_gdal(file) && !formats::is_read_once(file) &&
+         formats::begins_with_polygon(file);
+}
+
 formats::MeshContent formats::read_by_convention(const io::NetcdfReader& file,
                                                  const std::string& name, MissingCorners corners) {
   // The name of a grid of OASIS, such as torc, is that of no variable.
@@ -271,14 +279,12 @@ CellTable read_cells(const FileName& file, MissingCorners corners) {
 
 CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                       const Execution& execution) {
-  const std::string ending = io::ending(file);
-  // A file may have the ending of GeoJSON and be netCDF all the same; its first bytes decide.
-  const bool are_polygons = (ending == ".geojson" || ending == ".json") && !can_read_cells(file);
   const PolygonOptions rules{.edges = options.edges,
                              .invalid = options.invalid,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
-  if (are_polygons) return of(read_polygons(file, rules, execution), options.sides, execution);
+  if (can_read_polygons(file))
+    return of(read_polygons(file, rules, execution), options.sides, execution);
   if (const formats::GridOfFile grid = formats::grid_of_file(file, true); !grid.name.empty()) {
     try {
       const NamedGrid named(grid.name, options.sides);

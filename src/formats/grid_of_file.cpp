@@ -234,12 +234,16 @@ GridOfFile listed_pixels(const io::NetcdfReader& reader) {
   return found;
 }
 
-// A pipe and standard input can be read once, which is left to the reader of their content.
-GridOfFile grid_of_file(const FileName& file, bool needs_cells) {
+bool is_read_once(const FileName& file) {
   std::error_code error;
   const bool is_pipe = std::filesystem::exists(file.path, error) &&
                        !std::filesystem::is_regular_file(file.path, error);
-  if (file.bytes == nullptr && (is_pipe || file.path == "-")) return {};
+  return file.bytes == nullptr && (is_pipe || file.path == "-");
+}
+
+// What can be read once is left to the reader of its content.
+GridOfFile grid_of_file(const FileName& file, bool needs_cells) {
+  if (is_read_once(file)) return {};
   io::FileBytes bytes(file_and_variable(file).first, true);
   if (!io::is_netcdf(bytes.head())) return {};
   return io::in_file(bytes.name(), [&] {

@@ -45,6 +45,9 @@ struct GridOfFile {
 // file has other places, and where the numbers are none of pixels.
 GridOfFile listed_pixels(const io::NetcdfReader& reader);
 
+// True for standard input and a pipe, whose content can be read once.
+bool is_read_once(const FileName& file);
+
 // Returns the grid that netCDF says its points are on: if it has the numbers of pixels, or else the
 // dimensions of that grid and no other places; and, with `needs_cells`, if its places are centers of
 // some cells and it has no bounds. The name of a variable (FILE.nc:NAME) is ignored. Throws FileError

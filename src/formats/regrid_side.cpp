@@ -62,8 +62,7 @@ void require_places(const FileName& file) {
   if (is_netcdf_file(file)) return;
   std::error_code error;
   if (!std::filesystem::exists(file.path, error)) return;  // which its reader says
-  const std::string format = format_of(file);
-  if (format == "geojson" || format == "json") {
+  if (can_read_polygons(file)) {
     throw FileError(file.path +
                     ": it has polygons, which are no places: conservative methods, largest_share "
                     "and statistics are over polygons, and other methods between places");
@@ -124,11 +123,10 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
     return;
   }
   if (!can_read_cells(file)) {
-    const std::string format = format_of(file);
-    if (format != "geojson" && format != "json") {
+    if (!can_read_polygons(file)) {
       throw FileError(file.path +
-                      ": it is neither the name of a grid, nor netCDF with cells, nor .geojson "
-                      "with polygons");
+                      ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
+                      "(.geojson, and by GDAL .gpkg .fgb .shp .parquet)");
     }
     cells_ = CellSet::read(file, options_, execution);
   } else {

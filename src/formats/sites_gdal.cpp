@@ -42,7 +42,8 @@ constexpr std::array<SiteFormat, 4> site_formats = {{{".gpkg", "GPKG"},
 
 // Values of GDAL's enumerations.
 constexpr unsigned open_vector = 4, open_with_errors = 64;
-constexpr int point_type = 1, line_string_type = 2, multi_point_type = 4, collection_type = 7;
+constexpr int point_type = 1, line_string_type = 2, polygon_type = 3, multi_point_type = 4,
+              multi_polygon_type = 6, collection_type = 7;
 constexpr std::array<std::string_view, 8> type_names = {
     "",           "Point",           "LineString",   "Polygon",
     "MultiPoint", "MultiLineString", "MultiPolygon", "GeometryCollection"};
@@ -93,6 +94,8 @@ class SiteSource {
 
   // Reads the sites and, if they are kept, the columns. Throws BadValue or FileError.
   void read(const io::ReadJob& options, SiteTable& table);
+  // True if the first feature with a place has a polygon, or several geometries. Throws BadValue.
+  [[nodiscard]] bool begins_with_polygon() const;
   // Returns the features as GeoJSON. Throws BadValue or FileError.
   [[nodiscard]] std::string geojson() const;
 
@@ -285,6 +288,21 @@ void SiteSource::append_geometry(GdalHandle geometry, std::string& text) const {
   text += '}';
 }
 
+bool SiteSource::begins_with_polygon() const {
+  GdalHandle const layer = only_layer();
+  gdal_.reset_reading(layer);
+  int type = 0;
+  while (type == 0) {
+    GdalHandle const feature = gdal_.next_feature(layer);
+    if (feature == nullptr) return false;
+    GdalHandle const geometry = gdal_.geometry(feature);
+    const bool is_located = geometry != nullptr && gdal_.is_empty(geometry) == 0;
+    if (is_located) type = gdal_.flat_type(gdal_.geometry_type(geometry));
+    gdal_.destroy_feature(feature);
+  }
+  return type == polygon_type || type == multi_polygon_type || type == collection_type;
+}
+
 std::string SiteSource::geojson() const {
   GdalHandle const layer = only_layer();
   require_degrees(layer);
@@ -340,6 +358,16 @@ void SiteSource::read(const io::ReadJob& options, SiteTable& table) {
   }
 }
 
+// Returns what take() returns for a file that is open.
+template <class Take>
+auto from_source(const FileName& file, const Take& take) {
+  const std::lock_guard lock(gdal_lock());
+  io::FileBytes bytes(file, true);
+  if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
+  const SiteSource source(file, bytes, *io::find_format<SiteFormat>(site_formats, file));
+  return io::in_file(bytes.name(), [&] { return take(source); });
+}
+
 }  // namespace
 
 bool is_read_by_gdal(const FileName& file) {
@@ -347,11 +375,11 @@ bool is_read_by_gdal(const FileName& file) {
 }
 
 std::string geojson_of_gdal(const FileName& file) {
-  const std::lock_guard lock(gdal_lock());
-  io::FileBytes bytes(file, true);
-  if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
-  const SiteSource source(file, bytes, *io::find_format<SiteFormat>(site_formats, file));
-  return io::in_file(bytes.name(), [&] { return source.geojson(); });
+  return from_source(file, [](const SiteSource& source) { return source.geojson(); });
+}
+
+bool begins_with_polygon(const FileName& file) {
+  return from_source(file, [](const SiteSource& source) { return source.begins_with_polygon(); });
 }
 
 void read_sites_gdal(const FileName& file, const io::ReadJob& options, SiteTable& table) {

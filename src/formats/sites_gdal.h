@@ -24,6 +24,10 @@ bool is_read_by_gdal(const FileName& file);
 // coordinate system, or if a place is not valid. Precondition: is_read_by_gdal(file).
 void read_sites_gdal(const FileName& file, const io::ReadJob& options, SiteTable& table);
 
+// True if the first feature with a place has a polygon, or several geometries. Throws FileError as
+// geojson_of_gdal(). Precondition: is_read_by_gdal(file).
+bool begins_with_polygon(const FileName& file);
+
 // Returns a FeatureCollection in one line with all features of a file, whose numbers are the doubles
 // that the file has. Throws FileError if GDAL, its driver or the file is not there, if the file has
 // curves or surfaces, several layers or a projected coordinate system. Precondition:

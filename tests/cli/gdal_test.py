@@ -353,6 +353,35 @@ class FeaturesOfGdal(Folder):
         self.write([everything], k=[1], endings=("gpkg",))
         self.same("buffer", "{}", "--distance", "100", "-o", "o.geojson", endings=("gpkg",))
 
+    def test_are_cells_of_regridding(self):
+        """Polygons are targets and sources of regrid and remap; points are sites of remap."""
+        rows = "".join(f"{lon},{lat},{lon * lat}\n" for lon in range(-170, 180, 20) for lat in range(-80, 90, 20))
+        (self.folder / "t.csv").write_text("lon,lat,t\n" + rows)
+        done = self.run_tool("interpolate", "t.csv", "--value", "t", "--to", "grid:10", "-o", "t.nc")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        boxes = [None, shapely.box(0, 0, 20, 9), shapely.box(30, 0, 40, 20) - shapely.box(32, 3, 38, 12)]
+        self.write(boxes, zone=[1, 2, 3], name=["none", "a", "b"])
+        for options in ((), ("--edges", "geodesic"), ("--statistics", "mean,max"), ("--invalid", "repair")):
+            self.same("regrid", "t.nc", "{}", *options, "-o", "o.csv")
+        self.same("remap", "t.nc", "{}", "-o", "o.npz")
+        self.same("remap", "{}", "grid:10", "--edges", "geodesic", "-o", "o.npz")
+        for ending in ("geojson", *self.ENDINGS):
+            sides = ("--source", f"f.{ending}", "--target", "grid:10", "--edges", "geodesic")
+            done = self.run_tool("check-weights", "o.npz", *sides)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), ending)
+        for ending in self.ENDINGS:
+            done = self.run_tool("regrid", "t.nc", f"f.{ending}", "--method", "nearest", "-o", "o.csv")
+            self.assertIn(f"f.{ending}: it has polygons, which are no places", done.stderr)
+            info = subprocess.run([TOOL, "info", f"f.{ending}"], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                  capture_output=True, check=True)
+            self.assertIn("regrid and remap as a target", info.stdout)
+        self.write([shapely.Point(0, 0), shapely.Point(90, 0), shapely.Point(0, 90), shapely.Point(180, -45)], k=[1, 2, 3, 4])
+        for ending in self.ENDINGS:
+            done = self.run_tool("remap", f"f.{ending}", "grid:30", "-o", "o.npz")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            done = self.run_tool("regrid", "t.nc", f"f.{ending}", "-o", "o.csv")
+            self.assertIn("nor netCDF with cells, nor polygons (.geojson, and by GDAL", done.stderr)
+
     def test_are_known_to_info(self):
         self.write([shapely.box(0, 0, 9, 9), shapely.LineString([(0, 0), (1, 1)])], k=[1, 2], endings=("gpkg",))
         for name in ("f.gpkg", "f.geojson"):

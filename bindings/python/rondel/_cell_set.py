@@ -409,7 +409,8 @@ class CellSet(Described):
         ----------
         path : path-like
             A netCDF file with the conventions of UGRID, SCRIP, ESMF, MPAS, ICON or CF, or a
-            ``.geojson`` file whose features are the cells. netCDF-4 is read by the library that
+            ``.geojson`` file whose features are the cells, or with GDAL installed ``.gpkg``,
+            ``.fgb``, ``.shp`` or ``.parquet`` with polygons. netCDF-4 is read by the library that
             the package netCDF4 brings. If the file has several grids, ``FILE.nc:NAME`` names a
             variable of a grid, or one with values on it.
         sides : {'parallels', 'great_circles'}, optional

@@ -107,7 +107,8 @@ def regrid_file(
     path : path-like
         netCDF with fields; ``"FILE.nc:NAME"`` is one of them, or one of several grids.
     target : path-like
-        The name of a grid (`CellSet.named`), netCDF with cells, or .geojson with polygons.
+        The name of a grid (`CellSet.named`), netCDF with cells, or polygons: .geojson, and with
+        GDAL installed .gpkg, .fgb, .shp or .parquet.
     out : path-like
         Ends in .nc or .nc4 (netCDF-4), .csv, .tsv or .npy. The file appears when it is complete.
     names : str or iterable of str, optional
