@@ -293,10 +293,10 @@ bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const W
   return is_found;
 }
 
-// Applies the weights to all fields and writes them; missing values become the number of --fill.
-AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
-                        const ValuesAtSources& in) {
-  const Weights& weights = file.weights;
+// Applies the weights to all fields and writes them at the targets; missing values become the number
+// of --fill.
+AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weights& weights,
+                        const WeightSide& target, const ValuesAtSources& in) {
   FieldSet out;
   out.num_points = weights.num_rows();
   out.arrays = in.fields().arrays;
@@ -307,7 +307,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it
   // is written only if there are none.
   out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
-  FieldWriter writer(options.common.target(), out, file.target, options.netcdf, job.execution());
+  FieldWriter writer(options.common.target(), out, target, options.netcdf, job.execution());
   tell(writer.remarks());
   AppliedCounts counts;
   for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
@@ -354,10 +354,11 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4",
                  {{"VALUES", options.values_file}});
   Job job(common);
-  const WeightFile file = readable_weights(options);
+  WeightFile file = readable_weights(options);
+  use_corners_as_bounds(file.target);
   const Weights& weights = file.weights;
   const ValuesAtSources in = values_of(options, file);
-  const AppliedCounts counts = apply_all(job, options, file, in);
+  const AppliedCounts counts = apply_all(job, options, weights, file.target, in);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"sources", weights.num_columns},

@@ -121,6 +121,16 @@ void drop_columns_of(const FieldSet& fields, Targets& targets) {
   }
 }
 
+// Returns the targets as netCDF of fields gets them; the side of the targets is that of weights.
+WeightSide side_with_cells(const Job& job, const InterpolateOptions& options,
+                           const Targets& targets, FieldSet& fields) {
+  WeightSide side = targets.side;
+  if (is_netcdf_file(options.common.target())) {
+    describe_cells(options.target_file(), fields, side, job.execution());
+  }
+  return side;
+}
+
 // Interpolates the columns that --value names, and writes them as fields of those names. The index
 // of `table` counts sites; `weights` are those of bilinear or nearest_d2s. All columns are in
 // memory at once, as a table was.
@@ -141,8 +151,9 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
     fields.arrays.push_back(std::move(array));
   }
   drop_columns_of(fields, targets);
+  const WeightSide side = side_with_cells(job, options, targets, fields);
   job.time(Stage::write,
-           [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
+           [&] { write_fields(options.common.target(), fields, side, options.netcdf); });
 }
 
 // Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
@@ -168,7 +179,8 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
   drop_columns_of(out, targets);
-  FieldWriter writer(options.common.target(), out, targets.side, options.netcdf, job.execution());
+  const WeightSide side = side_with_cells(job, options, targets, out);
+  FieldWriter writer(options.common.target(), out, side, options.netcdf, job.execution());
   tell(writer.remarks());
   FieldCarrier carrier(job, method, table, targets, weights, extrapolator, counts);
   for (std::size_t a = 0; a < out.arrays.size(); ++a) {

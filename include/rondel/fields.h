@@ -200,6 +200,15 @@ class FieldFile {
   std::unique_ptr<OpenFields> content_;
 };
 
+/// Says which cells are around the points of a target, for netCDF that is to be written: by the name
+/// of a grid (NamedGrid::mapping()) or by the bounds of the cells that the file has, if these are
+/// around its points.
+/// \param target  the name of a grid, or the file that the points are from; nothing is said of others
+/// \param fields  gets the name
+/// \param points  gets the bounds: `corners`, or `axes` and `lines`
+RONDEL_API void describe_cells(const FileName& target, FieldSet& fields, WeightSide& points,
+                               const Execution& execution = {});
+
 /// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side,
 /// and one column for each field, named by its time or place on other axes ("tas_2001-07-15",
 /// "tas_850"); `.npy` of shape (n,) or (fields, n); `.nc` and `.nc4` on the grid of the side if it

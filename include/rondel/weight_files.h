@@ -57,6 +57,10 @@ struct WeightFile {
   std::vector<std::string> remarks;  ///< what read_weights() changed, one line each
 };
 
+/// Makes the corners of a side bounds of its points by CF (section 7.1), as CellSet::bounds() has them,
+/// and sets has_bounds; not of points on a grid along axes, which is written without a list of places.
+RONDEL_API void use_corners_as_bounds(WeightSide& side);
+
 /// Writes a file. Equal content gives equal bytes.
 ///
 /// | format | ending | content |

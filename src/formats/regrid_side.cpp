@@ -8,13 +8,13 @@
 #include <filesystem>
 #include <numbers>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "formats/field_cells.h"
 #include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
 #include "io/bad_value.h"
@@ -27,15 +27,6 @@
 
 namespace rondel::formats {
 namespace {
-
-std::set<std::string> taken_names(const FieldSet& fields) {
-  std::set<std::string> names = {"lon", "lat"};
-  for (const std::vector<FieldArray>* const arrays :
-       {&fields.arrays, &fields.axes, &fields.others}) {
-    for (const FieldArray& array : *arrays) names.insert(array.name);
-  }
-  return names;
-}
 
 // Returns the cells of the grid that the first of the variables is on, where the file has several;
 // else, as where its dimensions do not say it, those of the file.
@@ -70,16 +61,6 @@ void require_places(const FileName& file) {
   throw FileError(file.path +
                   ": it is neither the name of a grid nor netCDF with places; rondel interpolate "
                   "carries values to the points of tables");
-}
-
-// True if places that were read in two ways are one.
-bool is_near(const LonLat& a, const LonLat& b) {
-  constexpr double rounding = 1e-4;  // degrees, of single precision
-  return is_same_place(a, b, rounding);
-}
-
-bool is_same_axis(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::ranges::equal(a, b, [](double p, double q) { return is_near({p, 0}, {q, 0}); });
 }
 
 }  // namespace
@@ -235,61 +216,28 @@ WeightSide RegridSide::description(bool is_netcdf, const Execution& execution) c
   WeightSide side;
   side.shape = shape_;
   side.columns = columns_;
-  if (is_netcdf && !named_) add_bounds(side, execution);
-  if (axes_ && is_netcdf && !side.has_bounds) {
+  if (axes_ && is_netcdf) {
     side.axes = *axes_;
   } else {
+    side.points = places();
+  }
+  if (!is_netcdf || named_) return side;
+  if (!lines_ && !cells_) {
+    find_bounds(file_, side, execution);
+    return side;
+  }
+  side.lines = given_lines_;
+  if (cells_ && cells_->lines() == nullptr) side.corners = cells_->bounds();
+  side.has_bounds = !side.corners.empty();
+  if (side.has_bounds && axes_) {
+    side.axes = {};
     side.points = places();
   }
   return side;
 }
 
-void RegridSide::add_bounds(WeightSide& side, const Execution& execution) const {
-  if (lines_ || cells_) {
-    side.lines = given_lines_;
-    if (cells_ && cells_->lines() == nullptr) side.corners = cells_->bounds();
-  } else {
-    find_bounds(side, execution);
-  }
-  side.has_bounds = !side.corners.empty();
-}
-
-// The places may be nodes or edges of a mesh, and the file may have no cells, or none that are valid.
-void RegridSide::find_bounds(WeightSide& side, const Execution& execution) const {
-  try {
-    CellTable table = read_cells(file_);
-    if (table.num_cells() != num_places()) return;
-    if (table.grid) {
-      const LonLatAxes& found = table.facts.axes;
-      const bool are_same = axes_ && is_same_axis(found.lon_deg, axes_->lon_deg) &&
-                            is_same_axis(found.lat_deg, axes_->lat_deg);
-      if (are_same) side.lines = table.facts.given_lines;
-      return;
-    }
-    const CellSet cells = CellSet::of(std::move(table), GridSides::parallels, execution);
-    if (std::ranges::equal(cells.places(), places(), is_near)) side.corners = cells.bounds();
-  } catch (const FileError&) {
-    return;
-  } catch (const InvalidInput&) {
-    return;
-  }
-}
-
 void RegridSide::add_mapping(FieldSet& fields) const {
-  if (!named_) return;
-  const GridMapping mapping = named_->mapping();
-  if (mapping.texts.empty()) return;
-  if (mapping.texts.front().first == grid_attribute) {
-    fields.attributes.push_back(mapping.texts.front());
-    return;
-  }
-  FieldArray crs;
-  crs.name = free_names({"crs"}, taken_names(fields)).front();
-  crs.values = {0};
-  crs.attributes = mapping.texts;
-  for (const auto& [name, number] : mapping.numbers) crs.numbers.push_back({name, {number}, "i4"});
-  for (FieldArray& array : fields.arrays) array.attributes.emplace_back("grid_mapping", crs.name);
-  fields.others.push_back(std::move(crs));
+  if (named_) add_grid(*named_, fields);
 }
 
 Extrapolator extrapolator_between(const RegridSide& source, const RegridSide& target,

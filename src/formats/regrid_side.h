@@ -60,8 +60,7 @@ class RegridSide {
   // Returns what a file of fields gets to know. In netCDF, a grid along axes has these and no list of
   // places; and the cells of a file have bounds, if all have one ring of at most 16 corners.
   [[nodiscard]] WeightSide description(bool is_netcdf, const Execution& execution) const;
-  // Adds the variable by which a file says that points are the pixels of HEALPix, if they are, or the
-  // attribute that names another grid.
+  // Adds what names the grid in a file, if it has a name: add_grid().
   void add_mapping(FieldSet& fields) const;
 
  private:
@@ -71,11 +70,6 @@ class RegridSide {
   void take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                  const Execution& execution);
   void make_cells(const Execution& execution);
-  // Adds the bounds of the cells of a file, also of one that was read without cells.
-  void add_bounds(WeightSide& side, const Execution& execution) const;
-  // Adds the bounds of the file's cells to a side that was read without cells, if these are around its
-  // places.
-  void find_bounds(WeightSide& side, const Execution& execution) const;
 
   std::string name_;
   FileName file_;

@@ -16,6 +16,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/read_cells.h"
+#include "rondel/regrid.h"
 #include "rondel/remap.h"
 #include "system/checked_product.h"
 #include "system/job.h"
@@ -86,6 +87,22 @@ std::vector<LonLat> corners_of_rings(const CellRings& cells) {
   return corners;
 }
 
+// Makes bounds of corners, the same number for each place: NaN for a cell without ring, and longitudes
+// at most 180 degrees from the place's.
+void make_bounds(std::span<const LonLat> places, std::vector<LonLat>& corners) {
+  const std::size_t of_cell = corners.size() / places.size();
+  const auto is_zero = [](const LonLat& corner) { return corner == LonLat{0, 0}; };
+  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto cell = std::span(corners).subspan(i * of_cell, of_cell);
+    if (std::ranges::all_of(cell, is_zero)) std::ranges::fill(cell, LonLat{missing, missing});
+    for (LonLat& corner : cell) {
+      const double turns = std::round((places[i].lon_deg - corner.lon_deg) / 360);
+      if (std::isfinite(turns)) corner.lon_deg += 360 * turns;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<LonLat> LonLatAxes::places() const {
@@ -137,20 +154,14 @@ std::vector<LonLat> CellSet::corners() const {
 
 std::vector<LonLat> CellSet::bounds() const {
   std::vector<LonLat> bounds = corners();
-  if (bounds.empty()) return bounds;
-  const std::size_t of_cell = bounds.size() / num_cells();
-  const std::vector<LonLat> places = this->places();
-  const auto is_zero = [](const LonLat& corner) { return corner == LonLat{0, 0}; };
-  constexpr double missing = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < num_cells(); ++i) {
-    const auto cell = std::span(bounds).subspan(i * of_cell, of_cell);
-    if (std::ranges::all_of(cell, is_zero)) std::ranges::fill(cell, LonLat{missing, missing});
-    for (LonLat& corner : cell) {
-      const double turns = std::round((places[i].lon_deg - corner.lon_deg) / 360);
-      if (std::isfinite(turns)) corner.lon_deg += 360 * turns;
-    }
-  }
+  if (!bounds.empty()) make_bounds(places(), bounds);
   return bounds;
+}
+
+void use_corners_as_bounds(WeightSide& side) {
+  if (side.corners.empty() || axes_of_grid(side.points, side.shape)) return;
+  make_bounds(side.points, side.corners);
+  side.has_bounds = true;
 }
 
 WeightSide weight_side(const CellSet& cells) {

@@ -165,6 +165,40 @@ class Beside(unittest.TestCase):
                 self.assertGreater(np.isfinite(wanted).sum(), 10)
                 np.testing.assert_allclose(found, wanted, atol=1e-12)
 
+    def test_other_commands_say_which_cells_there_are(self):
+        """By bounds as regrid has them, or by the name of the grid."""
+        with write(self.folder / "in.nc") as file:
+            add(file, "t", ("lat", "lon"), np.random.default_rng(2).normal(size=(18, 36)))
+        with write(self.folder / "axes.nc", np.array([-40.0, 0, 10]), np.array([5.0, 20]), side=2) as file:
+            for name, sides in (("lat", [(-60, -20), (-20, 5), (5, 30)]), ("lon", [(0, 10), (10, 30)])):
+                file[name].bounds = f"{name}_sides"
+                add(file, f"{name}_sides", (name, "side"), sides)
+        for content in (write_curvilinear, write_ugrid, write_scrip):
+            with netCDF4.Dataset(self.folder / f"{content.__name__}.nc", "w", format="NETCDF3_CLASSIC") as file:
+                content(file)
+        for target in ("axes.nc", "write_curvilinear.nc", "write_ugrid.nc", "write_scrip.nc"):
+            self.run_tool("regrid", "in.nc", target, "-o", "wanted.nc")
+            self.run_tool("interpolate", "in.nc", "--to", target, "--weights", "w.nc", "-o", "found.nc")
+            self.run_tool("remap", "in.nc", target, "-o", "means.nc")
+            self.run_tool("apply", "means.nc", "in.nc", "-o", "applied.nc")
+            self.assertFalse(np.isnan(self.read("w.nc")["xc_b"][:]).any())
+            wanted = self.read("wanted.nc")
+            for path in ("found.nc", "applied.nc"):
+                found = self.read(path)
+                if path == "applied.nc" and target == "axes.nc":
+                    continue  # the weights have corners of cells, and no lines
+                for name in ("lat", "lon"):
+                    self.assertEqual(found[name].bounds, f"{name}_bnds")
+                    np.testing.assert_allclose(found[f"{name}_bnds"][:], wanted[f"{name}_bnds"][:], atol=1e-12)
+            np.testing.assert_allclose(self.read("applied.nc")["t"][:], wanted["t"][:], atol=1e-12)
+        for grid in ("O8", "healpix:1", "C4"):
+            self.run_tool("interpolate", "in.nc", "--to", grid, "--method", "nearest", "-o", "found.nc")
+            self.run_tool("regrid", "in.nc", grid, "--method", "nearest", "-o", "wanted.nc")
+            for path in ("found.nc", "wanted.nc"):
+                self.run_tool("regrid", path, "grid:30", "-o", f"again_{path}")
+            found, wanted = (self.read(f"again_{path}")["t"][:] for path in ("found.nc", "wanted.nc"))
+            np.testing.assert_array_equal(found, wanted)
+
     def test_cells_without_corners_have_no_bounds(self):
         with write(self.folder / "in.nc") as file:
             add(file, "t", ("lat", "lon"), 1.0)

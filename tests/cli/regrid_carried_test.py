@@ -378,11 +378,11 @@ class Carried(unittest.TestCase):
                 wanted = [word for name in header for word in ("--value", name)]
                 sides = ("--x", "x", "--y", "y", "--z", "z")
                 self.run_tool("interpolate", f"{path}.csv", *sides, "--to", target, *wanted, "--method", "nearest", "-o", f"{path}.nc", "--quiet")
-                source = ("--source", target) if target.startswith("healpix") else ()
-                self.run_tool("regrid", f"{path}.nc", "grid:20", "--method", method, *source, "-o", f"{path}_again.nc", "--quiet")
+                self.run_tool("regrid", f"{path}.nc", "grid:20", "--method", method, "-o", f"{path}_again.nc", "--quiet")
             for end in ("", "_again"):
                 with netCDF4.Dataset(self.folder / f"own{end}.nc") as own, netCDF4.Dataset(self.folder / f"plain{end}.nc") as plain:
                     fields = [name for name in own.variables if name not in ("lat", "lon")]
+                    fields = [name for name in fields if "grid_mapping_name" not in own[name].ncattrs()]
                     self.assertEqual([name.rstrip("_") for name in fields], names)
                     for k, name in enumerate(fields):
                         np.testing.assert_array_equal(own[name][:], plain[f"v{k}"][:], name)
