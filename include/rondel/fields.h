@@ -201,11 +201,12 @@ class FieldFile {
 };
 
 /// Says which cells are around the points of a target, for netCDF that is to be written: by the name
-/// of a grid (NamedGrid::mapping()) or by the bounds of the cells that the file has, if these are
+/// of a grid (NamedGrid::mapping()), which may be in a file, or by the bounds of the cells that the file has, if these are
 /// around its points.
 /// \param target  the name of a grid, or the file that the points are from; nothing is said of others
 /// \param fields  gets the name
-/// \param points  gets the bounds: `corners`, or `axes` and `lines`
+/// \param points  has the points, and gets the bounds: `corners`, or `axes` and `lines`
+/// \throws FileError for a file that names a grid which is none
 RONDEL_API void describe_cells(const FileName& target, FieldSet& fields, WeightSide& points,
                                const Execution& execution = {});
 

@@ -54,6 +54,21 @@ void add_lines(const CellFacts& grid, WeightSide& side) {
   side.lines = grid.given_lines;
 }
 
+// Says that points are those of a grid with a name, or the bounds of some of its cells; returns false
+// for a file that names no grid.
+bool describe_grid_of_file(const FileName& file, FieldSet& fields, WeightSide& points,
+                           const Execution& execution) {
+  const GridOfFile found = grid_of_file(file, true);
+  if (found.name.empty()) return false;
+  const NamedGrid grid(found.name);
+  if (found.numbers.empty() && grid.num_cells() == points.points.size()) add_grid(grid, fields);
+  if (!found.numbers.empty() && found.numbers.size() == points.points.size()) {
+    points.corners = grid.cells(found.numbers, execution).bounds();
+    points.has_bounds = !points.corners.empty();
+  }
+  return true;
+}
+
 }  // namespace
 
 void add_grid(const NamedGrid& grid, FieldSet& fields) {
@@ -101,7 +116,8 @@ void describe_cells(const FileName& target, FieldSet& fields, WeightSide& points
                     const Execution& execution) {
   if (NamedGrid::is_name(target.path)) {
     formats::add_grid(NamedGrid(target.path), fields);
-  } else if (!formats::is_read_once(target) && can_read_cells(target)) {
+  } else if (!formats::is_read_once(target) && can_read_cells(target) &&
+             !formats::describe_grid_of_file(target, fields, points, execution)) {
     formats::find_bounds(target, points, execution);
   }
 }

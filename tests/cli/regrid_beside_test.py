@@ -198,6 +198,21 @@ class Beside(unittest.TestCase):
                 self.run_tool("regrid", path, "grid:30", "-o", f"again_{path}")
             found, wanted = (self.read(f"again_{path}")["t"][:] for path in ("found.nc", "wanted.nc"))
             np.testing.assert_array_equal(found, wanted)
+            # A file that names its grid is a target as the grid is; one with some of its pixels has bounds.
+            self.run_tool("interpolate", "in.nc", "--to", "wanted.nc", "--method", "nearest", "-o", "file.nc")
+            self.assertEqual((self.folder / "file.nc").read_bytes(), (self.folder / "found.nc").read_bytes())
+        file = self.read("found.nc")
+        with netCDF4.Dataset(self.folder / "some.nc", "w") as some:
+            some.rondel_grid = file.rondel_grid
+            some.createDimension("n", 7)
+            for name in ("lat", "lon"):
+                add(some, name, ("n",), file[name][:].ravel()[3:24:3], units=UNITS[name])
+            add(some, "v", ("n",), 1.0, coordinates="lat lon")
+        self.run_tool("interpolate", "in.nc", "--to", "some.nc", "--method", "nearest", "-o", "found.nc")
+        self.run_tool("regrid", "in.nc", "some.nc", "-o", "wanted.nc")
+        found, wanted = (self.read(path)["lat_bnds"][:] for path in ("found.nc", "wanted.nc"))
+        self.assertEqual(found.shape[0], 7)
+        np.testing.assert_array_equal(found, wanted)
 
     def test_cells_without_corners_have_no_bounds(self):
         with write(self.folder / "in.nc") as file:
