@@ -159,7 +159,7 @@ std::vector<LonLat> CellSet::bounds() const {
 }
 
 void use_corners_as_bounds(WeightSide& side) {
-  if (side.corners.empty() || axes_of_grid(side.points, side.shape)) return;
+  if (side.corners.empty() || side.points.empty() || axes_of_grid(side.points, side.shape)) return;
   make_bounds(side.points, side.corners);
   side.has_bounds = true;
 }

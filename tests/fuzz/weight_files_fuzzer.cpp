@@ -131,6 +131,10 @@ void test_slices(const ScratchFolder& folder, const std::string& path, const Fie
       writer.write(slice);
     }
   }
+  for (const std::string& remark : writer.remarks()) {
+    require(remark.find('\n') == std::string::npos, "a remark is one line");
+  }
+  require(!fields.arrays.empty() || file.bytes_beside() == 0, "nothing is read of no fields");
   writer.finish();
   require(content(in_slices) == content(at_once), "slices are written as the whole is");
 }
@@ -141,12 +145,15 @@ void test_cells(const CellSet& cells, const CellTable& table) {
   require(cells.num_cells() == size, "cells are kept");
   require(cells.centers().size() == size, "a cell has a center");
   require((cells.lines() != nullptr) == table.grid.has_value(), "a grid has lines");
-  const WeightSide side = weight_side(cells.with_facts(cells.facts()));
+  WeightSide side = weight_side(cells.with_facts(cells.facts()));
   require(side.points == cells.places() && side.points.size() == size, "a cell has a place");
   const std::size_t num_corners = cells.corners().size();
   require(cells.bounds().size() == num_corners, "each corner is one of the bounds");
   require(side.corners.size() == num_corners && (num_corners == 0 || num_corners % size == 0),
           "a cell has as many corners as others");
+  use_corners_as_bounds(side);
+  require(side.corners.size() == num_corners && (num_corners > 0 || !side.has_bounds),
+          "bounds are made of corners");
 }
 
 // Right weights are found right; of changed ones as many are wrong as were changed.
@@ -246,7 +253,15 @@ void test_weights(std::string_view bytes) {
     require(can_read_cells(path), "a file of cells has an ending of cells");
     require_grid_or_file(path);
     test_cells(CellSet::of(table), table);
-    test_cells(CellSet::read(path), table);
+    const CellSet cells = CellSet::read(path);
+    test_cells(cells, table);
+    require(!can_read_polygons(path), "netCDF has no polygons of features");
+    FieldSet fields;
+    WeightSide side;
+    side.points = cells.places();
+    describe_cells(path, fields, side);
+    require(!side.has_bounds || side.corners.size() % side.points.size() == 0,
+            "each place has as many bounds");
   });
   expect_answer([&] {
     const CellTable table = read_cells(path, MissingCorners::made);
