@@ -4,6 +4,7 @@
 #include "overlay/subdivision.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "order/sorts.h"
 #include "overlay/measure.h"
 #include "overlay/region_area.h"
+#include "overlay/twins.h"
 #include "predicates/bounds.h"
 #include "rondel/predicates.h"
 #include "system/disjoint_sets.h"
@@ -95,10 +97,11 @@ void sort_equals(const CellRings& input, order::KeyedIndices& sorted) {
 
 Subdivision::Subdivision(const CellRings& input, bool is_rounded, unsigned threads) {
   sort_cells(input, threads);
-  take_rings(input);
+  take_rings(input, threads);
+  number_points(input.points, threads);
   find_begins();
-  if (is_rounded) merge_disordered();
-  find_twins();
+  if (is_rounded) merge_disordered(threads);
+  twins = twins_of(rings, corners, points.size(), threads);
   find_shapes(threads);
 }
 
@@ -122,48 +125,123 @@ void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
   keys = std::move(sorted.keys);
   names.assign(sorted.indices.begin(), sorted.indices.end());
   system::reserve_large(centers, n);
-  for (const Index i : names) centers.push_back(places[i]);
+  centers.resize(n);
+  system::parallel_for(threads, n, cells_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + system::prefetch_distance < end) {
+        system::prefetch(&places[names[i + system::prefetch_distance]]);
+      }
+      centers[i] = places[names[i]];
+    }
+  });
 }
 
 // Rings begin at their corner with the least coordinates, so that only `names` depends on the order
-// of the input.
-void Subdivision::take_rings(const CellRings& input) {
-  LargeVector<Index> new_points(input.points.size(), no_index);
-  system::reserve_large(points, input.points.size());
-  rings.reserve(input.rings.size());
-  given_starts.reserve(input.rings.size());
-  cells.reserve(num_cells() + 1);
-  cells.push_back(0);
-  rings.push_back(0);
-  corners.reserve(input.corners.size());
-  cell_of.reserve(input.corners.size());
-  const auto cell_after = [&](std::size_t c, std::size_t steps) {
-    return names[std::min(c + steps * cells_ahead, num_cells() - 1)];
-  };
-  for (std::size_t c = 0; c < num_cells(); ++c) {
-    system::prefetch(&input.cells[cell_after(c, 4)]);
-    system::prefetch(&input.rings[input.cells[cell_after(c, 3)]]);
-    system::prefetch(input.corners.data() + input.rings[input.cells[cell_after(c, 2)]]);
-    prefetch_points(input, cell_after(c, 1));
-    const Index i = names[c];
-    for (std::uint64_t r = input.cells[i]; r < input.cells[i + 1]; ++r) {
-      const std::size_t begin = input.rings[r];
-      const std::size_t size = input.rings[r + 1] - begin;
-      const std::size_t start = min_corner(input, r);
-      given_starts.push_back(static_cast<Index>(start - begin));
-      for (std::size_t k = 0; k < size; ++k) {
-        const Index p = input.corners[begin + (start - begin + k) % size];
-        if (new_points[p] == no_index) {
-          new_points[p] = static_cast<Index>(points.size());
-          points.push_back(input.points[p]);
+// of the input. The corners are still points of the input.
+void Subdivision::take_rings(const CellRings& input, unsigned threads) {
+  const auto offset = [&](std::size_t r) { return input.rings[r]; };
+  const std::size_t num_pieces = system::num_pieces(num_cells(), cells_per_task);
+  std::vector<Index> rings_before(num_pieces + 1, 0);
+  std::vector<Index> corners_before(num_pieces + 1, 0);
+  system::parallel_for(
+      threads, num_cells(), cells_per_task, [&](std::size_t begin, std::size_t end) {
+        const std::size_t piece = begin / cells_per_task + 1;
+        for (std::size_t c = begin; c < end; ++c) {
+          if (c + cells_ahead < end) system::prefetch(&input.cells[names[c + cells_ahead]]);
+          const std::uint64_t first = input.cells[names[c]];
+          const std::uint64_t last = input.cells[names[c] + 1];
+          rings_before[piece] += static_cast<Index>(last - first);
+          corners_before[piece] += static_cast<Index>(offset(last) - offset(first));
         }
-        corners.push_back(new_points[p]);
-        cell_of.push_back(static_cast<Index>(c));
+      });
+  system::sum_counts(rings_before);
+  system::sum_counts(corners_before);
+  cells.resize(num_cells() + 1);
+  rings.resize(std::size_t{rings_before.back()} + 1);
+  given_starts.resize(rings_before.back());
+  corners.resize(corners_before.back());
+  cell_of.resize(corners_before.back());
+  cells.back() = rings_before.back();
+  rings.back() = corners_before.back();
+  system::parallel_for(
+      threads, num_cells(), cells_per_task, [&](std::size_t begin, std::size_t end) {
+        Index ring = rings_before[begin / cells_per_task];
+        Index h = corners_before[begin / cells_per_task];
+        const auto cell_after = [&](std::size_t c, std::size_t steps) {
+          return names[std::min(c + steps * cells_ahead, num_cells() - 1)];
+        };
+        for (std::size_t c = begin; c < end; ++c) {
+          system::prefetch(&input.cells[cell_after(c, 4)]);
+          system::prefetch(&input.rings[input.cells[cell_after(c, 3)]]);
+          system::prefetch(input.corners.data() + offset(input.cells[cell_after(c, 2)]));
+          prefetch_points(input, cell_after(c, 1));
+          cells[c] = ring;
+          for (std::uint64_t r = input.cells[names[c]]; r < input.cells[names[c] + 1]; ++r) {
+            const std::span ring_corners =
+                std::span(input.corners).subspan(offset(r), offset(r + 1) - offset(r));
+            const std::size_t start = min_corner(input, r) - offset(r);
+            given_starts[ring] = static_cast<Index>(start);
+            rings[ring++] = h;
+            std::fill_n(cell_of.begin() + h, ring_corners.size(), static_cast<Index>(c));
+            const auto middle = ring_corners.begin() + static_cast<std::ptrdiff_t>(start);
+            std::rotate_copy(ring_corners.begin(), middle, ring_corners.end(), corners.begin() + h);
+            h += static_cast<Index>(ring_corners.size());
+          }
+        }
+      });
+}
+
+// Numbers the points in the order of their first use, and corners by these numbers: each piece numbers
+// what no piece before it uses.
+void Subdivision::number_points(std::span<const Point> given, unsigned threads) {
+  const std::size_t size = corners.size();
+  const std::size_t grain =
+      system::num_threads(threads) == 1 ? std::max<std::size_t>(size, 1) : 4 * cells_per_task;
+  LargeVector<Index> first_piece(given.size(), no_index);
+  LargeVector<Index> numbers(given.size(), no_index);
+  std::vector<Index> points_before(system::num_pieces(size, grain) + 1, 0);
+  const auto for_pieces = [&](auto work) {
+    system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
+      work(static_cast<Index>(begin / grain), std::span(corners).subspan(begin, end - begin));
+    });
+  };
+  for_pieces([&](Index piece, std::span<const Index> part) {
+    for (const Index p : part) {
+      const std::atomic_ref first(first_piece[p]);
+      Index before = first.load(std::memory_order_relaxed);
+      while (piece < before &&
+             !first.compare_exchange_weak(before, piece, std::memory_order_relaxed)) {
       }
-      rings.push_back(static_cast<Index>(corners.size()));
     }
-    cells.push_back(static_cast<Index>(rings.size() - 1));
+  });
+  for_pieces([&](Index piece, std::span<const Index> part) {
+    Index next = 0;
+    for (const Index p : part) {
+      if (first_piece[p] == piece && numbers[p] == no_index) numbers[p] = next++;
+    }
+    points_before[piece + 1] = next;
+  });
+  system::sum_counts(points_before);
+  system::reserve_large(points, given.size());
+  points.resize(points_before.back());
+  for_pieces([&](Index piece, std::span<Index> part) {
+    for (Index& corner : part) {
+      const Index p = corner;
+      corner = points_before[first_piece[p]] + numbers[p];
+      if (first_piece[p] == piece) points[corner] = given[p];
+    }
+  });
+}
+
+// Whether each edge turns counterclockwise around the center of its cell.
+bool Subdivision::is_in_order(Index cell) const {
+  const Index begin = begin_of(cell);
+  const Index end = end_of(cell);
+  for (Halfedge h = begin; h < end; ++h) {
+    const Index next = corners[h + 1 == end ? begin : h + 1];
+    if (corners[h] != next && !is_left_turn(centers[cell], origin(h), points[next])) return false;
   }
+  return true;
 }
 
 // Merges corners that rounding has put into the wrong order. Each edge must turn counterclockwise
@@ -171,8 +249,16 @@ void Subdivision::take_rings(const CellRings& input) {
 // does not, the cell is narrower than that edge's rounding, and all its short edges vanish. A cell
 // that has fewer than three corners left loses its ring, and the cells on both sides of it become
 // neighbors.
-void Subdivision::merge_disordered() {
+void Subdivision::merge_disordered(unsigned threads) {
   constexpr double short_length = 0x1p-44;
+  std::atomic<bool> are_in_order = true;
+  system::parallel_for(
+      threads, num_cells(), cells_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end && are_in_order.load(std::memory_order_relaxed); ++c) {
+          if (!is_in_order(static_cast<Index>(c))) are_in_order = false;
+        }
+      });
+  if (are_in_order) return;
   system::DisjointSets merged(points.size());
   bool has_any = false;
   bool has_changed = true;
@@ -251,33 +337,6 @@ void Subdivision::take_merged(std::span<const Index> merged) {
 void Subdivision::find_begins() {
   begins.resize(cells.size());
   for (std::size_t c = 0; c < cells.size(); ++c) begins[c] = rings[cells[c]];
-}
-
-void Subdivision::find_twins() {
-  const std::size_t size = corners.size();
-  LargeVector<Index> ends(size);
-  for (Index ring = 0; ring + 1 < rings.size(); ++ring) {
-    for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) {
-      ends[h] = corners[h + 1 == rings[ring + 1] ? rings[ring] : h + 1];
-    }
-  }
-  // `leaving` lists the halfedges by their origins, in compressed rows.
-  system::RowPlaces<Index> places(points.size());
-  for (const Index p : corners) places.count(p);
-  LargeVector<Halfedge> leaving(places.sum());
-  for (Halfedge h = 0; h < size; ++h) leaving[places.place(corners[h])] = h;
-  const std::vector<Index> starts = std::move(places).offsets();
-  twins.assign(size, no_index);
-  for (Halfedge h = 0; h < size; ++h) {
-    if (twins[h] != no_index) continue;
-    for (Index k = starts[ends[h]]; k < starts[ends[h] + 1]; ++k) {
-      const Halfedge g = leaving[k];
-      if (ends[g] != corners[h] || twins[g] != no_index) continue;
-      twins[h] = g;
-      twins[g] = h;
-      break;
-    }
-  }
 }
 
 // True if a cell is strictly convex: its ring turns left at all corners and goes around once. Seen

@@ -97,11 +97,12 @@ struct Subdivision {
 
  private:
   void sort_cells(const CellRings& input, unsigned threads);
-  void take_rings(const CellRings& input);
-  void merge_disordered();
+  void take_rings(const CellRings& input, unsigned threads);
+  void number_points(std::span<const Point> given, unsigned threads);
+  [[nodiscard]] bool is_in_order(Index cell) const;
+  void merge_disordered(unsigned threads);
   void take_merged(std::span<const Index> merged);
   void find_begins();
-  void find_twins();
   void find_shapes(unsigned threads);
   [[nodiscard]] bool is_convex(Index cell) const;
   [[nodiscard]] bool is_star(Index cell) const;
