@@ -277,9 +277,9 @@ TEST(overlay_polygons, neighbors_share_corners) {
   EXPECT_EQ(joined.rings.size(), 2U);
   EXPECT_NEAR(areas(joined)[0], area_of_box(0, 0, 40, 60), 1e-5);
   ASSERT_EQ(table.facts.columns.size(), 2U);
-  EXPECT_EQ(table.facts.columns[1].name, "name");
-  EXPECT_EQ(table.facts.columns[1].text, "ab");
-  EXPECT_EQ(table.facts.columns[0].ends, (std::vector<std::uint64_t>{1, 1, 1}));
+  EXPECT_EQ(table.facts.columns[0].name, "name");
+  EXPECT_EQ(table.facts.columns[0].text, "ab");
+  EXPECT_EQ(table.facts.columns[1].ends, (std::vector<std::uint64_t>{1, 1, 1}));
 }
 
 // A corner of one neighbor alone becomes one of both, next to the antimeridian and a turn of the globe away, too.
