@@ -61,7 +61,7 @@ RONDEL_API std::vector<Point> polar_points(std::span<const LonLat> centers,
 /// The result is exact for every finite input, whatever rounding mode the calling thread has set:
 /// the library rounds to nearest, as in IEEE 754. Ties of cocircular sites are broken by a symbolic
 /// perturbation that depends on the sites' coordinates alone. The expected time is O(n log n); peak
-/// memory is about 70 bytes for each site, besides the sites themselves.
+/// memory is about 70 bytes for each site and up to 7 MB for each thread, besides the sites themselves.
 /// \throws InvalidInput (first bad index) if a coordinate is not finite, a
 ///         projected site is the center, the sphere is not valid (squared
 ///         radius not positive, center not finite) or there are more than

@@ -140,7 +140,8 @@ class Scope {
   /** A copy of an array. @param {Values} values */
   copy(values) {
     const place = this.room(values.length, /** @type {4 | 8} */ (values.BYTES_PER_ELEMENT));
-    const Type = /** @type {new (b: ArrayBuffer, p: number, n: number) => Values} */ (values.constructor);
+    // Not values.constructor: a derived class may have any.
+    const Type = [Float64Array, Uint32Array, Int32Array].find((type) => values instanceof type) ?? Float64Array;
     new Type(this.engine.memory.buffer, place, values.length).set(values);
     return place;
   }

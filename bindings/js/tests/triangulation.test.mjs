@@ -5,7 +5,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { delaunay, noIndex, polarPoints, unitVectors, voronoi } from "rondel";
+import { delaunay, DynamicTriangulation, noIndex, polarPoints, unitVectors, voronoi } from "rondel";
 import { cross, difference, dot, point, randomSites, sum } from "./support.mjs";
 
 const octahedron = [1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
@@ -93,6 +93,31 @@ test("float arrays and plain arrays are taken", () => {
   const expected = delaunay(Float64Array.from(octahedron)).triangles;
   assert.deepEqual(delaunay(octahedron).triangles, expected);
   assert.deepEqual(delaunay(Float32Array.from(octahedron)).triangles, expected);
+});
+
+test("arrays of derived classes are taken, whatever their constructors are", () => {
+  class Vector extends Float64Array {
+    constructor(x, y, z) {
+      super(3);
+      this.set([x, y, z]);
+    }
+  }
+  class Numbers extends Float64Array {
+    constructor(values) {
+      super(values);
+    }
+  }
+  class Ids extends Uint32Array {
+    constructor(values) {
+      super(values);
+    }
+  }
+  assert.deepEqual(delaunay(new Numbers(octahedron)).triangles, delaunay(octahedron).triangles);
+  const sites = new DynamicTriangulation(octahedron);
+  const [id] = sites.insert(new Vector(0, 0.6, 0.8));
+  assert.deepEqual([...sites.snapshot().points.slice(18)], [0, 0.6, 0.8]);
+  sites.remove(new Ids([id]));
+  assert.deepEqual(sites.snapshot().triangles, delaunay(octahedron).triangles);
 });
 
 test("nearest, k nearest and within agree with all distances", () => {
