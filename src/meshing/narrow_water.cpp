@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/point_order.h"
 #include "exact/vector.h"
 #include "meshing/mesh_border.h"
 #include "rondel/error.h"
@@ -110,6 +111,11 @@ class NarrowWater {
     return is_old ? features_[number_of(a, b)] : FeatureOfEdge::coast;
   }
 
+  // True for a corner of the features that is no end of new coast.
+  [[nodiscard]] bool is_old_site(Index node) const {
+    return !is_new_[node] && mesh_.sites[node] != no_index;
+  }
+
   FeaturePart& part_of(FeatureOfEdge feature) {
     return feature == FeatureOfEdge::coast  ? coast_
            : feature == FeatureOfEdge::line ? lines_
@@ -187,16 +193,14 @@ class NarrowWater {
       polygon.corners.push_back(static_cast<Index>(polygon.points.size()));
       polygon.points.push_back(mesh_.nodes[node]);
       is_on_line_[node] = true;
-      if (is_new_[node] || mesh_.sites[node] == no_index) {
-        new_corners_.push_back(mesh_.nodes[node]);
-      }
+      if (!is_old_site(node)) new_corners_.push_back(mesh_.nodes[node]);
     }
     polygon.end_ring();
     add_coasts(nodes, is_coast);
   }
 
-  // Adds the chains of coast of a ring; if all of it is coast, from a site, if it has one: the ends
-  // of lines are not simplified.
+  // Adds the chains of coast of a ring. If all of it is coast, the chain begins at the site with the
+  // least coordinates: ends of lines are not simplified, and numbers follow the order of features.
   void add_coasts(std::span<const Index> nodes, const std::vector<bool>& is_coast) {
     const std::size_t n = nodes.size();
     std::size_t first = 0;
@@ -204,8 +208,12 @@ class NarrowWater {
     if (first < n) {
       ++first;
     } else if (is_coast.front()) {
-      first = 0;
-      while (first < n && (is_new_[nodes[first]] || mesh_.sites[nodes[first]] == no_index)) ++first;
+      const auto is_before = [&](Index a, Index b) {
+        const bool is_site = is_old_site(a);
+        if (is_site != is_old_site(b)) return is_site;
+        return exact::is_less(mesh_.nodes[a], mesh_.nodes[b]);
+      };
+      first = static_cast<std::size_t>(std::ranges::min_element(nodes, is_before) - nodes.begin());
     }
     std::vector<Index> chain;
     for (std::size_t k = first; k < first + n; ++k) {

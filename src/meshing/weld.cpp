@@ -60,12 +60,13 @@ class Weld {
   }
 
  private:
-  // A site on a side, and its squared distance from the beginning of the side.
+  // A site on a side, and its order along it: the squared distance of its foot from the end of the
+  // side that has the smaller coordinates, with the opposite sign where the side begins at the other
+  // one. So a side has the same chain in both directions.
   struct SiteOnSide {
     Index side;
-    double from_begin;
+    double along;
     Index site;
-    friend auto operator<=>(const SiteOnSide&, const SiteOnSide&) = default;
   };
 
   // Gives sites that are too near to one with smaller coordinates the place of that one: the order of
@@ -105,13 +106,24 @@ class Weld {
       if (places_[i] != i) continue;
       tree.visit(box_around(sites_[i], near_[i]), [&](Index side) { look_at(side, i); });
     }
-    std::ranges::sort(on_sides_);
+    // Sites with one foot have an order that no numbers change.
+    std::ranges::sort(on_sides_, [&](const SiteOnSide& a, const SiteOnSide& b) {
+      if (a.side != b.side) return a.side < b.side;
+      if (a.along != b.along) return a.along < b.along;
+      const auto& [low, high] = is_up(a.side) ? std::pair(a, b) : std::pair(b, a);
+      return exact::is_less(sites_[low.site], sites_[high.site]);
+    });
+  }
+  // True if a side goes from smaller coordinates to larger ones.
+  [[nodiscard]] bool is_up(Index side) const {
+    return exact::is_less(sites_[sides_[side][0]], sites_[sides_[side][1]]);
   }
   void look_at(Index side, Index site) {
     const auto& [begin, end] = sides_[side];
     if (site == begin || site == end) return;
-    const Point& a = sites_[begin];
-    const Point& b = sites_[end];
+    const bool goes_up = is_up(side);
+    const Point& a = sites_[goes_up ? begin : end];
+    const Point& b = sites_[goes_up ? end : begin];
     const Point& p = sites_[site];
     const Point across = cross(a, b);
     if (!(dot(across, across) > 0)) return;
@@ -120,7 +132,9 @@ class Weld {
     if (!(height * height <= squared(near_[site]))) return;
     const Point foot = p - height * normal;
     const bool is_between = dot(normal, cross(a, foot)) > 0 && dot(normal, cross(foot, b)) > 0;
-    if (is_between) on_sides_.push_back({side, dot(foot - a, foot - a), site});
+    if (!is_between) return;
+    const double along = dot(foot - a, foot - a);
+    on_sides_.push_back({side, goes_up ? along : -along, site});
   }
 
   // Returns the sites of the next line or ring, each once in a row.
