@@ -47,6 +47,8 @@ struct TrianglesOptions {
   /// How far the coasts, borders and lines of the mesh may be from those given, in radians
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
   /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
+  /// Where features cross, they have corners before they are simplified, and polygons of the coast,
+  /// or of the area, that overlap are united: so a coast leaves the area where it did.
   std::optional<double> tolerance = std::nullopt;
   /// Corners, ends and points that are nearer than this, in radians, to another one or to a side are
   /// put there before anything else is done: for gaps and overlaps that rounded numbers leave along
@@ -83,7 +85,7 @@ struct DomainTriangles {
 };
 
 /// Fills a part of the sphere with triangles whose edges follow its border: simplifies coasts,
-/// borders and lines; triangulates them (rondel/constrained.h), with nodes where they cross; fills
+/// borders and lines, with corners where they cross; triangulates them (rondel/constrained.h); fills
 /// narrow water and leaves small parts out, if that is wanted; and refines (rondel/mesh_refine.h).
 ///
 /// Features that touch up to rounding are welded: corners that are nearer to another corner, or to a
@@ -94,7 +96,8 @@ struct DomainTriangles {
 /// are nodes there.
 /// \throws InvalidInput as constraints_of_features() (the feature, counted over coast, area and
 ///         lines), simplified(), constrained_delaunay() and refine(); if polygons of the coast or
-///         the area cross themselves such that nothing is on one side; if `fill_narrow` or
+///         the area cross themselves such that nothing is on one side, and are not simplified (else
+///         unite() says what they have); if `fill_narrow` or
 ///         `smallest_part` is not from 0 to 1, or narrow water has no spacing to be compared with;
 ///         if the spacing asks for more nodes than RefineOptions::most_vertices, before any is made;
 ///         and if nothing is left, or of the area nothing after its simplification

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Steps: put all features into one set, simplify them, triangulate their arcs, find the faces of
+// Steps: put all features into one set, let them meet in corners, simplify them, triangulate their arcs, find the faces of
 // the area and not of the land, fill narrow water, refine what is left, and tell what the edges of
 // the mesh follow.
 #include <algorithm>
@@ -16,11 +16,12 @@
 
 #include "exact/point_order.h"
 #include "exact/vector.h"
-#include "map/ring_area.h"
 #include "meshing/coarse_refine.h"
+#include "meshing/corner_meetings.h"
 #include "meshing/narrow_water.h"
 #include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
+#include "meshing/small_parts.h"
 #include "meshing/sound_positions.h"
 #include "meshing/weld.h"
 #include "order/spatial_order.h"
@@ -30,7 +31,6 @@
 #include "rondel/mesh_triangles.h"
 #include "rondel/simplify.h"
 #include "system/arithmetic.h"
-#include "system/disjoint_sets.h"
 #include "system/job.h"
 
 namespace rondel::mesh {
@@ -147,8 +147,11 @@ class TrianglesOfDomain {
     const std::size_t num_small_parts = options_.smallest_part > 0 ? leave_small_parts_out() : 0;
     DomainTriangles made = refined(options_.refine);
     made.filled_area = filled_area;
-    if (options_.fill_narrow > 0) made.filled_area += meshing::fill_pinches(made);
     made.num_small_parts = num_small_parts;
+    if (options_.fill_narrow > 0) {
+      made.filled_area += meshing::fill_pinches(made);
+      if (options_.smallest_part > 0) made.num_small_parts += leave_small_parts_out(made);
+    }
     sort(made, execution_.threads);
     return made;
   }
@@ -174,8 +177,30 @@ class TrianglesOfDomain {
     } else if (simplify.tolerance == 0) {
       return;
     }
+    simplify_by(simplify);
+  }
+  // Features that cross are simplified after they have corners there, and polygons that overlap as one:
+  // so coasts, borders and lines keep their topology.
+  void simplify_by(const SimplifyOptions& simplify) {
+    weld_features();
+    if (meshing::meeting_in_corners(all_, execution_)) {
+      all_ = meshing::without_small_rings(all_, simplify, execution_);
+      take_whole();
+      if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
+      meshing::unite_polygons(0, end_of_coast_, all_, execution_);
+      meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
+    }
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    take_whole();
+  }
+
+  // Takes polygons that have become the whole sphere, and have no rings then.
+  void take_whole() {
+    for (const Index cell : std::exchange(all_.polygons.whole, {})) {
+      if (cell < end_of_coast_) refuse_land();
+      is_everywhere_ = is_everywhere_ || cell < end_of_area_;
+    }
   }
 
   // Simplifies where coasts are new.
@@ -189,8 +214,7 @@ class TrianglesOfDomain {
       const double quarter = options_.refine.spacing->spacing(place) / 4;
       return std::max(options_.fill_narrow * quarter, options_.tolerance.value_or(quarter));
     };
-    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
-    all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    simplify_by(simplify);
   }
 
   // Throws InvalidInput if the simplification has left nothing of the area.
@@ -336,39 +360,42 @@ class TrianglesOfDomain {
     const auto& [a, b, c] = triangulation_.triangulation.faces()[face];
     return {points[a], points[b], points[c]};
   }
-  [[nodiscard]] double area_of(Index face) const { return map::area_on_left(corners_of(face)); }
-  [[nodiscard]] CellRings polygon_of_mesh() const {
-    const Triangulation& all = triangulation_.triangulation;
+  // The faces of the mesh, and their corners.
+  struct FacesOfMesh {
+    std::vector<Index> faces;
     std::vector<Triple> triangles;
+  };
+  [[nodiscard]] FacesOfMesh faces_of_mesh() const {
+    FacesOfMesh result;
     for (Index f = 0; f < regions_.size(); ++f) {
-      if (regions_[f] != no_index) triangles.push_back(all.faces()[f]);
+      if (regions_[f] == no_index) continue;
+      result.faces.push_back(f);
+      result.triangles.push_back(triangulation_.triangulation.faces()[f]);
     }
-    return meshing::polygon_of(all.sites().points(), triangles);
+    return result;
+  }
+  [[nodiscard]] CellRings polygon_of_mesh() const {
+    return meshing::polygon_of(triangulation_.triangulation.sites().points(),
+                               faces_of_mesh().triangles);
   }
 
   // Leaves parts of the mesh out that are too small, and returns their number.
   std::size_t leave_small_parts_out() {
     const Triangulation& all = triangulation_.triangulation;
-    system::DisjointSets parts(all.num_faces());
-    std::vector<double> areas(all.num_faces());
-    for (Index f = 0; f < all.num_faces(); ++f) {
-      if (regions_[f] == no_index) continue;
-      for (const Index neighbor : all.neighbors()[f]) {
-        if (regions_[neighbor] != no_index) parts.join(f, neighbor);
-      }
+    const auto [faces, triangles] = faces_of_mesh();
+    const meshing::SmallParts small =
+        meshing::small_parts(all.sites().points(), triangles, options_.smallest_part);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (small.has[i]) regions_[faces[i]] = no_index;
     }
-    for (Index f = 0; f < all.num_faces(); ++f) {
-      if (regions_[f] != no_index) areas[parts[f]] += area_of(f);
-    }
-    const double least = options_.smallest_part * *std::ranges::max_element(areas);
-    const auto is_small = [&](Index f) { return areas[parts[f]] < least; };
-    std::size_t number = 0;
-    for (Index f = 0; f < all.num_faces(); ++f) {
-      if (regions_[f] == no_index || !is_small(f)) continue;
-      number += parts[f] == f ? 1U : 0U;
-      regions_[f] = no_index;
-    }
-    return number;
+    return small.number;
+  }
+  // The same after nodes were filled at which the mesh touched itself: that may divide a part.
+  [[nodiscard]] std::size_t leave_small_parts_out(DomainTriangles& made) const {
+    const meshing::SmallParts small =
+        meshing::small_parts(made.mesh.nodes, made.mesh.triangles, options_.smallest_part);
+    if (small.number > 0) meshing::remove_triangles(small.has, made);
+    return small.number;
   }
 
   // Returns 0 for the faces of the mesh, and no_index for others.

@@ -62,8 +62,8 @@ class Fans {
       fan.first = nodes_[first.from];
       for (auto spoke = std::ranges::find(spokes, first.from, &SideOfNode::from);
            spoke != spokes.end(); spoke = std::ranges::find(spokes, spoke->to, &SideOfNode::from)) {
-        const auto& [a, b, c] = triangles_[spoke->triangle];
-        const std::array<Point, 3> ring = {nodes_[a], nodes_[b], nodes_[c]};
+        // It begins with the node, as numbers do not say.
+        const std::array<Point, 3> ring = {nodes_[node], nodes_[spoke->from], nodes_[spoke->to]};
         fan.triangles.push_back(spoke->triangle);
         fan.area += map::area_on_left(ring);
       }
@@ -118,14 +118,15 @@ std::vector<Ends> new_border(std::size_t num_nodes, std::span<const Triple> befo
   return result;
 }
 
-// Takes triangles away, and nodes that are corners of none. What was beside them is coast.
-void remove_triangles(const std::vector<bool>& is_filled, mesh::DomainTriangles& made) {
+}  // namespace
+
+void remove_triangles(const std::vector<bool>& is_removed, mesh::DomainTriangles& made) {
   mesh::RefinedMesh& mesh = made.mesh;
   std::vector<Triple> kept;
   std::vector<Index> regions;
   std::vector<Index> numbers(mesh.nodes.size(), no_index);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (is_filled[t]) continue;
+    if (is_removed[t]) continue;
     kept.push_back(mesh.triangles[t]);
     regions.push_back(mesh.regions[t]);
     for (const Index corner : kept.back()) numbers[corner] = 0;
@@ -165,8 +166,6 @@ void remove_triangles(const std::vector<bool>& is_filled, mesh::DomainTriangles&
     made.features.push_back(feature);
   }
 }
-
-}  // namespace
 
 double fill_pinches(mesh::DomainTriangles& made) {
   double area = 0;

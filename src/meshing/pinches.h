@@ -13,6 +13,8 @@
 // index nodes and triangles of the mesh
 #pragma once
 
+#include <vector>
+
 #include "rondel/mesh_triangles.h"
 
 namespace rondel::meshing {
@@ -20,5 +22,8 @@ namespace rondel::meshing {
 // Fills triangles where the mesh has several gaps around a node: of the triangles there that have
 // edges in common those stay that have the largest area. Returns the filled area in steradians.
 double fill_pinches(mesh::DomainTriangles& made);
+
+// Takes triangles away, and nodes that are corners of none. What was beside them is coast.
+void remove_triangles(const std::vector<bool>& is_removed, mesh::DomainTriangles& made);
 
 }  // namespace rondel::meshing

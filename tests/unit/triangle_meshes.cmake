@@ -5,6 +5,7 @@ rondel_add_test(triangle_mesh_test
   formats/triangle_files_test.cpp
   map/longitudes_test.cpp
   meshing/boundary_segments_test.cpp
+  meshing/domain_crossings_test.cpp
   meshing/domain_triangles_test.cpp
   meshing/sound_positions_test.cpp
   meshing/triangle_meshes.cpp

@@ -21,45 +21,12 @@
 #include "rondel/remap.h"
 #include "rondel/sites.h"
 #include "support/thrown.h"
+#include "unit/meshing/domains.h"
 
 namespace rondel::test {
 namespace {
 
-using mesh::DomainTriangles;
-using mesh::FeatureOfEdge;
-using mesh::MeshDomain;
-using mesh::triangles;
-using mesh::TrianglesOptions;
-using Ring = std::vector<LonLat>;
-
 constexpr double whole_sphere = 4 * std::numbers::pi;
-
-// A feature of one polygon, or of lines.
-Geometries polygon(const std::vector<Ring>& rings) {
-  Geometries geometries;
-  for (const Ring& ring : rings) {
-    for (const Point& point : unit_vectors(ring)) {
-      geometries.polygons.corners.push_back(static_cast<Index>(geometries.polygons.points.size()));
-      geometries.polygons.points.push_back(point);
-    }
-    geometries.polygons.end_ring();
-  }
-  geometries.polygons.end_cell();
-  geometries.lines.end_group();
-  return geometries;
-}
-
-Geometries line(const Ring& positions) {
-  Geometries geometries;
-  geometries.lines.rows.append(unit_vectors(positions));
-  geometries.lines.end_group();
-  geometries.polygons.end_cell();
-  return geometries;
-}
-
-Ring box(double west, double south, double east, double north) {
-  return {{west, south}, {east, south}, {east, north}, {west, north}};
-}
 
 Ring around_pole(double lat) {
   Ring ring;
@@ -97,28 +64,6 @@ double area_in_first_alone(const DomainTriangles& first, const DomainTriangles& 
 
 std::size_t number_of(const DomainTriangles& made, FeatureOfEdge feature) {
   return static_cast<std::size_t>(std::ranges::count(made.features, feature));
-}
-
-TrianglesOptions spaced(double degrees) {
-  TrianglesOptions options;
-  options.refine.spacing = mesh::SizeFunction::constant(degrees * std::numbers::pi / 180, 64);
-  options.tolerance = 0;
-  return options;
-}
-
-// The triangles by their corners, whatever numbers these have.
-std::set<std::array<std::tuple<double, double, double>, 3>> places_of(const DomainTriangles& made) {
-  std::set<std::array<std::tuple<double, double, double>, 3>> places;
-  for (const Triple& triangle : made.mesh.triangles) {
-    std::array<std::tuple<double, double, double>, 3> corners;
-    for (unsigned i = 0; i < 3; ++i) {
-      const Point& p = made.mesh.nodes[triangle[i]];
-      corners[i] = {p.x, p.y, p.z};
-    }
-    std::ranges::sort(corners);
-    places.insert(corners);
-  }
-  return places;
 }
 
 TEST(domain_triangles, a_sea_with_an_island) {
@@ -191,6 +136,19 @@ TEST(domain_triangles, small_islands_vanish) {
   EXPECT_EQ(number_of(made, FeatureOfEdge::coast), 0U);
 }
 
+TEST(domain_triangles, an_area_without_a_small_island_is_everywhere) {
+  Ring rock = box(1, 1, 1.01, 1.01);
+  std::ranges::reverse(rock);
+  TrianglesOptions options = spaced(20);
+  options.tolerance.reset();
+  const DomainTriangles made = triangles({{}, {polygon({rock})}, {}}, options);
+  EXPECT_NEAR(area_of(made), whole_sphere, 1e-11);
+  EXPECT_EQ(thrown_message<InvalidInput>([&] {
+              return triangles({{polygon({rock})}, {}, {}}, options);
+            }),
+            "nothing is left for triangles: the land covers the area");
+}
+
 TEST(domain_triangles, order_and_threads_change_nothing) {
   const Geometries sea = polygon({box(-5, -4, 6, 5)});
   const Geometries east = polygon({box(1, 1, 2, 3)});
@@ -199,11 +157,7 @@ TEST(domain_triangles, order_and_threads_change_nothing) {
   for (const double share : {0.0, 1.0}) {
     options.fill_narrow = share;
     const DomainTriangles one = triangles({{east, west}, {sea}, {}}, options);
-    const DomainTriangles other = triangles({{west, east}, {sea}, {}}, options, {.threads = 2});
-    EXPECT_TRUE(std::ranges::equal(one.mesh.nodes, other.mesh.nodes));
-    EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
-    EXPECT_EQ(one.mesh.edges, other.mesh.edges);
-    EXPECT_EQ(one.features, other.features);
+    expect_same(one, triangles({{west, east}, {sea}, {}}, options, {.threads = 2}));
   }
 }
 

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Domains for tests of their triangles: boxes, polygons and lines in degrees.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "rondel/mesh_triangles.h"
+#include "rondel/sites.h"
+
+namespace rondel::test {
+
+using mesh::DomainTriangles;
+using mesh::FeatureOfEdge;
+using mesh::MeshDomain;
+using mesh::triangles;
+using mesh::TrianglesOptions;
+using Ring = std::vector<LonLat>;
+
+// A feature of one polygon, or of lines.
+inline Geometries polygon(const std::vector<Ring>& rings) {
+  Geometries geometries;
+  for (const Ring& ring : rings) {
+    for (const Point& point : unit_vectors(ring)) {
+      geometries.polygons.corners.push_back(static_cast<Index>(geometries.polygons.points.size()));
+      geometries.polygons.points.push_back(point);
+    }
+    geometries.polygons.end_ring();
+  }
+  geometries.polygons.end_cell();
+  geometries.lines.end_group();
+  return geometries;
+}
+
+inline Geometries line(const Ring& positions) {
+  Geometries geometries;
+  geometries.lines.rows.append(unit_vectors(positions));
+  geometries.lines.end_group();
+  geometries.polygons.end_cell();
+  return geometries;
+}
+
+inline Ring box(double west, double south, double east, double north) {
+  return {{west, south}, {east, south}, {east, north}, {west, north}};
+}
+
+inline TrianglesOptions spaced(double degrees) {
+  TrianglesOptions options;
+  options.refine.spacing = mesh::SizeFunction::constant(degrees * std::numbers::pi / 180, 64);
+  options.tolerance = 0;
+  return options;
+}
+
+// The triangles by their corners, whatever numbers these have.
+inline std::set<std::array<std::tuple<double, double, double>, 3>> places_of(
+    const DomainTriangles& made) {
+  std::set<std::array<std::tuple<double, double, double>, 3>> places;
+  for (const Triple& triangle : made.mesh.triangles) {
+    std::array<std::tuple<double, double, double>, 3> corners;
+    for (unsigned i = 0; i < 3; ++i) {
+      const Point& p = made.mesh.nodes[triangle[i]];
+      corners[i] = {p.x, p.y, p.z};
+    }
+    std::ranges::sort(corners);
+    places.insert(corners);
+  }
+  return places;
+}
+
+inline void expect_same(const DomainTriangles& one, const DomainTriangles& other) {
+  EXPECT_TRUE(std::ranges::equal(one.mesh.nodes, other.mesh.nodes));
+  EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+  EXPECT_EQ(one.mesh.edges, other.mesh.edges);
+  EXPECT_EQ(one.features, other.features);
+}
+
+}  // namespace rondel::test
