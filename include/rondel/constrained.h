@@ -116,7 +116,8 @@ constrained_delaunay(const Sites& sites, std::span<const std::array<Index, 2>> c
 ///
 /// A polygon may have several rings, holes, and any area; polygons may share sides and overlap. An
 /// edge along which as many sides of a polygon go in one direction as in the other is no border of
-/// it. Ghost faces are in no polygon. Below dimension 2 there are no faces.
+/// it. Ghost faces are in no polygon. Below dimension 2 there are no faces, and a polygon that has a
+/// border leaves what they cover.
 /// \param result  what constrained_delaunay() returned for the constraints
 /// \param constraints  those that it was called with; the interior of a polygon is to their left
 /// \param polygons  the constraints that are sides of each polygon

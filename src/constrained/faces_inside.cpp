@@ -37,6 +37,7 @@ class PolygonFlood {
         faces_(result.triangulation.faces()),
         neighbors_(result.triangulation.neighbors()),
         net_(result.edges.size()),
+        balance_(result.triangulation.num_sites()),
         ascending_(result.edges.size()),
         descending_(result.edges.size()),
         is_reached_(faces_.size()),
@@ -60,6 +61,7 @@ class PolygonFlood {
   void visit(Index face);
   template <class Work>
   void for_edges(std::span<const Index> sides, std::size_t polygon, const Work& work) const;
+  void require_rings(std::span<const Index> sides, std::size_t polygon);
   [[nodiscard]] bool is_covered_from(std::span<const Index> sides, std::size_t polygon);
   [[nodiscard]] bool spread(bool& is_closed);
   void sort_reached();
@@ -81,6 +83,7 @@ class PolygonFlood {
   std::span<const Triple> neighbors_;
   std::vector<Index> first_edges_;  // by lower site: the first edge from it or a higher one
   std::vector<int> net_;  // for each edge, how many more sides of the polygon ascend than descend
+  std::vector<int> balance_;            // for each site, how many more edges begin there than end
   std::vector<SideOfFace> ascending_;   // the solid faces on the left of the ascending edges
   std::vector<SideOfFace> descending_;  // and on their right
   std::vector<std::uint8_t> is_reached_;
@@ -203,6 +206,24 @@ void PolygonFlood::for_edges(std::span<const Index> sides, std::size_t polygon,
   }
 }
 
+// Throws InvalidInput unless as many sides begin at each site as end there.
+void PolygonFlood::require_rings(std::span<const Index> sides, std::size_t polygon) {
+  std::size_t num_unbalanced = 0;
+  const auto change = [&](Index site, int step) {
+    num_unbalanced += balance_[site] == 0 ? 1U : 0U;
+    balance_[site] += step;
+    num_unbalanced -= balance_[site] == 0 ? 1U : 0U;
+  };
+  for_edges(sides, polygon, [&](const DirectedEdge& e) {
+    const auto& [low, high] = result_.edges[e.edge];
+    change(low, e.is_ascending ? 1 : -1);
+    change(high, e.is_ascending ? -1 : 1);
+  });
+  if (num_unbalanced == 0) return;
+  throw InvalidInput("polygon " + std::to_string(polygon) + " has sides that close no ring",
+                     polygon);
+}
+
 // Reaches the faces on the left of the sides. Returns false if a side has no face there.
 bool PolygonFlood::is_covered_from(std::span<const Index> sides, std::size_t polygon) {
   bool is_covered = true;
@@ -266,6 +287,7 @@ void PolygonFlood::sort_reached() {
 
 std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std::size_t polygon) {
   reached_.clear();
+  require_rings(sides, polygon);
   bool is_closed = true;
   for_edges(sides, polygon,
             [&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
@@ -281,7 +303,8 @@ std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std:
   }
   if (!is_covered) {
     throw InvalidInput("polygon " + std::to_string(polygon) +
-                           " leaves the hull of the sites, outside of which there are no faces",
+                           " leaves the hull of the sites, outside of which there are no faces; "
+                           "one more site there, such as a pole, makes some",
                        polygon);
   }
   sort_reached();
@@ -295,10 +318,6 @@ CompressedRows<Index> faces_inside(const ConstrainedTriangulation& result,
                                    std::span<const std::array<Index, 2>> constraints,
                                    const CompressedRows<Index>& polygons) {
   CompressedRows<Index> inside;
-  if (result.triangulation.dimension() < 2) {
-    inside.offsets.resize(polygons.size() + 1);
-    return inside;
-  }
   constrained::PolygonFlood flood(result, constraints);
   for (std::size_t p = 0; p < polygons.size(); ++p) inside.append(flood.faces_in(polygons[p], p));
   return inside;

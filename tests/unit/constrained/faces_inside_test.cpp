@@ -190,7 +190,8 @@ TEST(faces_inside, a_region_has_its_hull_alone) {
   const auto result = constrained_delaunay(scene.sites, scene.constraints);
   EXPECT_EQ(thrown_message<InvalidInput>(
                 [&] { return faces_inside(result, scene.constraints, scene.polygons); }),
-            "polygon 1 leaves the hull of the sites, outside of which there are no faces");
+            "polygon 1 leaves the hull of the sites, outside of which there are no faces; one more "
+            "site there, such as a pole, makes some");
 }
 
 TEST(faces_inside, both_hemispheres_and_no_faces) {
@@ -199,9 +200,21 @@ TEST(faces_inside, both_hemispheres_and_no_faces) {
   scene.add({equator});
   const auto flat = constrained_delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}},
                                          std::vector<Ends>{{0, 1}});
+  const std::vector<Ends> there_and_back = {{0, 1}, {1, 2}, {2, 1}, {1, 0}};
   CompressedRows<Index> one;
-  one.append(std::array<Index, 1>{0});
-  EXPECT_EQ(faces_inside(flat, std::vector<Ends>{{0, 1}}, one)[0].size(), 0U);
+  one.append(std::array<Index, 4>{0, 1, 2, 3});
+  EXPECT_EQ(faces_inside(constrained_delaunay(flat.triangulation.sites(), there_and_back),
+                         there_and_back, one)[0]
+                .size(),
+            0U);
+  // A hemisphere, with no site off its border.
+  const std::vector<Ends> around = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const auto half = constrained_delaunay(
+      std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, around);
+  ASSERT_EQ(half.triangulation.dimension(), 1);
+  EXPECT_EQ(thrown_message<InvalidInput>([&] { return faces_inside(half, around, one); }),
+            "polygon 0 leaves the hull of the sites, outside of which there are no faces; one more "
+            "site there, such as a pole, makes some");
   scene.add({reversed(equator)});
   scene.add_sites(60);
   expect_areas(scene);
@@ -219,11 +232,21 @@ TEST(faces_inside, sides_that_are_no_rings_are_refused) {
     return thrown_message<InvalidInput>(
         [&] { return faces_inside(result, scene.constraints, scene.polygons); });
   };
-  EXPECT_EQ(message(), "polygon 0 has sides that do not divide in and out");
+  EXPECT_EQ(message(), "polygon 0 has sides that close no ring");
   scene.polygons.values[0] = 6;
   EXPECT_EQ(message(), "polygon 0 has constraint 6, but there are 6 constraints");
   scene.constraints.push_back({0, 40});
   EXPECT_EQ(message(), "constraint 6 is no chain of edges");
+}
+
+TEST(faces_inside, rings_with_the_interior_on_both_sides_are_refused) {
+  Scene scene;
+  scene.add({scene.around(0, 0, 20, 6), scene.around(0, 0, 10, 6)});
+  scene.add_sites(50);
+  const auto result = constrained_delaunay(scene.sites, scene.constraints);
+  EXPECT_EQ(thrown_message<InvalidInput>(
+                [&] { return faces_inside(result, scene.constraints, scene.polygons); }),
+            "polygon 0 has sides that do not divide in and out");
 }
 
 }  // namespace
