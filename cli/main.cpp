@@ -135,6 +135,15 @@ void require_option_values(std::span<const char* const> arguments) {
   }
 }
 
+// Names an option whose value is an empty argument, as that of a variable that a script has not set:
+// it would be as if the option were not there.
+void refuse_empty_values(const CLI::App& app) {
+  for (const CLI::Option* const option : app.get_options()) {
+    if (option->get_lnames().empty() || std::ranges::count(option->results(), "") == 0) continue;
+    throw UsageError("--" + option->get_lnames().front() + ": its value is empty");
+  }
+}
+
 // Returns the parser of the command that the arguments chose.
 const CLI::App& parsed_app(const CLI::App& tool) {
   const CLI::App* app = &tool;
@@ -232,6 +241,7 @@ int run(int argc, const char* const* argv) {
   }
   const Command* command = selected(commands);
   if (command == nullptr) throw UsageError("no command (see rondel --help)");
+  refuse_empty_values(parsed_app(tool));
   return command->run();
 }
 

@@ -106,7 +106,6 @@ void add_radius(CLI::App& command, CommonOptions& options) {
       .add_option_function<std::string>(
           "--radius",
           [&options](const std::string& column) {
-            if (column.empty()) throw UsageError("--radius: the name of a column is empty");
             options.read.radius = column;
             options.build.model = Model::weighted;
           },
