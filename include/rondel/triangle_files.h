@@ -52,8 +52,8 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 /// 3. Where depths are needed and the mesh has none, they are 0. FESOM needs at least three levels:
 ///    without levels they are 0, half of the largest depth, and the largest depth.
 /// \param remarks  gets a sentence for all that the format does not hold
-/// \throws InvalidInput as require_valid() does; (the position of the triangle) if one has no area in
-///         degrees all the same; for FESOM (the node) if a depth is negative
+/// \throws InvalidInput if there are no triangles; as require_valid() does; (the position of the
+///         triangle) if one has no area in degrees all the same; for FESOM (the node) if a depth is negative
 /// \throws FileError for other endings, and if the system refuses
 RONDEL_API void write_triangle_mesh(const FileName& file, const TriangleMesh& mesh,
                                     const NetcdfOptions& netcdf = {},
@@ -73,7 +73,8 @@ RONDEL_API void write_triangle_mesh(const FileName& file, const TriangleMesh& me
 ///    25 and 64) become land: their two sides, if they have two.
 /// \param remarks  gets a sentence for all that was left out or changed
 /// \throws FileError with file, line and value for a file that cannot be understood, for elements
-///         that are no triangles, and for what require_valid() refuses
+///         that are no triangles, for a file without triangles, for triangles that overlap around a
+///         node of the border, and for what require_valid() refuses
 RONDEL_API TriangleMesh read_triangle_mesh(const FileName& file, const Execution& execution = {},
                                            std::vector<std::string>* remarks = nullptr);
 

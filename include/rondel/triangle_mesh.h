@@ -92,7 +92,7 @@ struct TriangleMesh {
 ///               have no effect. Not given: all edges are
 /// \throws InvalidInput (the position of the triangle) if a corner is no node, or if two triangles
 ///         have an edge in the same direction, as of three do; (the position of the node) if a point is not
-///         finite or the center
+///         finite or the center, or triangles overlap around a node of the border
 RONDEL_API std::vector<BoundarySegment> boundary_segments(
     std::span<const Point> points, std::span<const Triple> triangles,
     const std::optional<std::span<const std::array<Index, 2>>>& coast = std::nullopt);

@@ -63,7 +63,12 @@ void find_boundary(MeshInFile& file) {
       coast.push_back(edge);
     }
   }
-  mesh.boundary = mesh::boundary_segments(mesh.points, mesh.triangles, coast);
+  try {
+    mesh.boundary = mesh::boundary_segments(mesh.points, mesh.triangles, coast);
+  } catch (const InvalidInput& error) {  // of a mesh that is valid otherwise
+    throw BadValue("triangles overlap around node " + std::to_string(error.index() + file.base),
+                   line_of(file.node_lines, error.index()));
+  }
   const std::size_t num_inner = file.open_edges.size() - num_open;
   if (num_inner == 0) return;
   file.remarks.push_back(std::to_string(num_inner) +
@@ -152,6 +157,7 @@ void drop_free_nodes(MeshInFile& file) {
 
 void complete_mesh(MeshInFile& file) {
   mesh::TriangleMesh& mesh = file.mesh;
+  if (mesh.triangles.empty()) throw BadValue("there are no triangles");
   if (!mesh.positions.empty()) mesh.points = unit_vectors(mesh.positions);
   if (std::ranges::all_of(mesh.depths, [](double depth) { return depth == 0; })) {
     mesh.depths.clear();

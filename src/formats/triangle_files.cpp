@@ -164,6 +164,7 @@ void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
                          const NetcdfOptions& netcdf, const Execution& execution,
                          std::vector<std::string>* remarks) {
   const system::Call call(execution);
+  if (mesh.triangles.empty()) throw InvalidInput("there are no triangles");
   require_valid(mesh);
   const bool is_in_space = is_gmsh(name);
   const formats::MeshOfFile content = {

@@ -62,12 +62,18 @@ class BorderWalk {
   }
 
  private:
-  // Returns the nodes of the walk that begins with an edge.
+  // Returns the nodes of the walk that begins with an edge. It comes back to that edge, unless runs
+  // of triangles around a node overlap: then two edges to a node have the same next one.
   std::vector<Index> walk(std::size_t first) {
     std::vector<Index> nodes;
-    for (std::size_t e = first; !is_done_[e]; e = next(edges_[e])) {
+    std::size_t e = first;
+    for (; !is_done_[e]; e = next(edges_[e])) {
       is_done_[e] = true;
       nodes.push_back(edges_[e][0]);
+    }
+    if (e != first) {
+      const Index node = edges_[e][0];
+      throw InvalidInput("triangles overlap around node " + std::to_string(node), node);
     }
     return nodes;
   }

@@ -12,6 +12,7 @@
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/predicates.h"
 #include "support/random.h"
 #include "support/thrown.h"
 #include "unit/meshing/triangle_meshes.h"
@@ -153,6 +154,39 @@ TriangleMesh squares(const std::vector<std::string>& rows) {
     }
   }
   return mesh::triangle_mesh(unit_vectors(positions), positions, triangles);
+}
+
+// Triangles that overlap may meet in a node such that no walk along the border is closed.
+TEST(boundary_segments, of_triangles_that_overlap_name_a_node) {
+  EXPECT_EQ(thrown_message<InvalidInput>([] {
+              mesh::triangle_mesh(
+                  unit_vectors(std::vector<LonLat>{{1, 3}, {1, 0}, {2, 2}, {4, 6}, {6, 2}, {0, 3}}),
+                  {}, std::vector<Triple>{{5, 4, 3}, {5, 2, 0}});
+            }),
+            "triangles overlap around node 4");
+  Random random(6);
+  int num_refused = 0;
+  for (int round = 0; round < 3000; ++round) {
+    std::vector<LonLat> positions(7);
+    for (LonLat& place : positions) place = {9 * random.unit(), 9 * random.unit()};
+    const std::vector<Point> points = unit_vectors(positions);
+    std::vector<Triple> triangles;
+    for (std::size_t t = 0; t < 3; ++t) {
+      Triple triangle;
+      for (Index& corner : triangle) corner = static_cast<Index>(7 * random.unit());
+      const auto& [a, b, c] = triangle;
+      if (a == b || b == c || c == a) continue;
+      if (orientation(points[a], points[b], points[c]) == Sign::negative)
+        std::swap(triangle[0], triangle[1]);
+      triangles.push_back(triangle);
+    }
+    const std::string text = thrown_message<InvalidInput>(
+        [&] { mesh::require_valid(mesh::triangle_mesh(points, {}, triangles)); });
+    const bool is_overlap = text.starts_with("triangles overlap around node ");
+    EXPECT_TRUE(text.empty() || is_overlap || text.starts_with("triangle ")) << text;
+    num_refused += is_overlap ? 1 : 0;
+  }
+  EXPECT_GT(num_refused, 100);
 }
 
 TEST(boundary_segments, of_islands_that_touch_are_islands_each) {
