@@ -645,7 +645,8 @@ RONDEL_C_API const rondel_geometries* rondel_piece_geometries(const rondel_piece
 typedef struct rondel_triangles rondel_triangles;
 
 /** Triangulates polygons together, exactly and never outside of them. `spacing_deg` is the length of the longest sides of
- *  triangles in degrees, about; 0: only the corners of polygons are corners of triangles.
+ *  triangles in degrees, about; 0: no points are added for the sake of it. Corners of triangles are those of polygons, places where
+ *  sides cross, and, where polygons need them, points of the axes.
  *  RONDEL_INVALID_INPUT: the spacing is negative, not finite or too small; the index of a polygon that has a side
  *  that leads to the opposite point, or whose sides do not close rings that have the interior on one side. */
 RONDEL_C_API rondel_status rondel_triangulate_polygons(const rondel_polygons* polygons,

@@ -201,6 +201,8 @@ test("geoTriangulate reads polygons as d3-geo does", () => {
   assert.ok(points.every((p) => clockwise.coordinates.flat().some((q) => p[0] === q[0] && p[1] === q[1])));
   const bow = polygon([[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]);
   assert.throws(() => geoTriangulate(bow), /do not divide in and out/);
+  const open = polygon([[0, 0], [0, 10], [10, 10], [10, 0]]);
+  assert.throws(() => geoTriangulate(open), { name: "RondelError", message: "feature 0: a ring is not closed" });
   assert.deepEqual(geoTriangulate(polygon()), { points: [], triangles: [], features: [[]] });
 });
 

@@ -21,7 +21,8 @@ import { trianglesOf, wideOffsets, withMade } from "./triangulate.js";
 
 /**
  * The rings of features with the interior to their left, each corner once: a polygon of arcs for each feature. A feature
- * that is the whole sphere has no rings, whatever polygons lie in its collection.
+ * that is the whole sphere has no rings, whatever polygons lie in its collection. Throws for a ring that is not closed, of
+ * which d3-geo would take the last position for the first one.
  * @param {import("./geojson.js").FlatPolygons} flat
  */
 function turnedRings({ features, polygons, rings, lonLat, isSphere }) {
@@ -33,7 +34,8 @@ function turnedRings({ features, polygons, rings, lonLat, isSphere }) {
       const positions = [];
       for (let k = rings[r]; k < rings[r + 1]; ++k) positions.push([lonLat[2 * k], lonLat[2 * k + 1]]);
       const [first, last] = [positions[0], positions[positions.length - 1]];
-      if (positions.length > 1 && first[0] === last[0] && first[1] === last[1]) positions.pop();
+      if (first?.[0] !== last?.[0] || first?.[1] !== last?.[1]) throw new RondelError(`feature ${f}: a ring is not closed`, f);
+      if (positions.length > 1) positions.pop();
       for (const [lon, lat] of positions.reverse()) turned.lonLat.push(lon, lat);
       turned.rings.push(turned.lonLat.length / 2);
     }
@@ -69,7 +71,7 @@ function checkRings({ cells, rings, lonLat }, corners) {
  * @param {any} object GeoJSON, also {type: "Sphere"}
  * @param {{spacing?: number}} [options] `spacing` as for triangulate()
  * @returns {GeoTriangles}
- * @throws {RondelError} with the index of a feature whose rings do not divide in and out
+ * @throws {RondelError} with the index of a feature whose rings are not closed, or do not divide in and out
  */
 export function geoTriangulate(object, options = {}) {
   const { spacing = 0 } = named(options, ["spacing"]);
