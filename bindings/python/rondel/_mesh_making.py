@@ -131,6 +131,8 @@ def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
     """The spacings at the nodes of the raster; empty where all are the same and not given."""
     if spacing is None:
         return np.empty(0)
+    if isinstance(spacing, str | bytes | bool | np.bool_):
+        raise TypeError(f"spacing is {spacing!r}, neither a number nor a function of places")
     places = _core.raster_places(steps)
     if not callable(spacing):
         return np.full(len(places), float(spacing))

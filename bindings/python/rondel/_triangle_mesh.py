@@ -370,7 +370,8 @@ def triangles(
         that returns n numbers. No edge is longer than 1.5 times the spacing at its ends. By default
         edges are as long as angles allow.
     gradient : float, optional
-        The largest growth of the spacing per distance, positive; by default it is not limited.
+        The largest growth of the spacing per distance, positive; by default it is not limited. It
+        needs `spacing`.
     tolerance : float, optional
         How far coasts, borders and lines of the mesh may be from those given, in radians. They are
         simplified with their topology kept; islands and lakes that are nowhere wider vanish. By
@@ -417,6 +418,9 @@ def triangles(
     ValueError
         If geometries are not valid, a number is not as described, nothing is left to fill, the
         spacing asks for more nodes than a mesh may have, or a depth is not finite.
+    TypeError
+        If `spacing` is neither a number nor a function, `depths` is no function, or `gradient` is
+        given without `spacing`.
 
     See Also
     --------
@@ -440,6 +444,10 @@ def triangles(
     [('open', 17), ('open', 17), ('island', 8)]
 
     """
+    if gradient is not None and spacing is None:
+        raise TypeError("gradient limits the growth of spacing, which is not given")
+    if depths is not None and not callable(depths):
+        raise TypeError("depths is no function of the nodes")
     given = {"coast": coast, "area": area, "lines": lines}
     present = {name: value for name, value in given.items() if value is not None}
     parts = dict.fromkeys(given, _core.Geometries())

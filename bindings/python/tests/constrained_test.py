@@ -220,7 +220,7 @@ def test_polygons_by_positions_of_constraints():
     assert np.array_equal(again.indices, both.indices)
     assert tri.faces_inside([]).indptr.tolist() == [0]
     for wrong, reason in (
-        ([4, 5], "do not divide"),
+        ([4, 5], "close no ring"),
         ([9], "constraint 9"),
         ([0.5], "positions"),
         ([-1], "positions"),
@@ -229,7 +229,14 @@ def test_polygons_by_positions_of_constraints():
             tri.faces_inside([[*range(4)], wrong])
         assert caught.value.index == 1
     with pytest.raises(rondel.InvalidInput, match="leaves the hull"):
-        tri.faces_inside([[0, 1]])
+        tri.faces_inside([[4, 5, 6, 7]])
+
+
+def test_a_hemisphere_has_no_faces_on_one_circle():
+    shapely = pytest.importorskip("shapely")
+    tri = rondel.constrained_delaunay(shapely.box(-180, 0, 180, 90))
+    with pytest.raises(rondel.InvalidInput, match="one more site there, such as a pole"):
+        _ = tri.inside
 
 
 # ---- Geometries

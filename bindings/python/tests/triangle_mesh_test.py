@@ -172,6 +172,18 @@ def test_narrow_water_is_filled_and_small_parts_are_left_out():
         rondel.mesh.triangles(land, **given, fill_narrow=2)
 
 
+def test_arguments_without_effect_are_refused():
+    shapely = pytest.importorskip("shapely")
+    given = {"area": shapely.box(0, 40, 12, 50)}
+    for spacing in ("0.02", True):
+        with pytest.raises(TypeError, match="neither a number nor a function"):
+            rondel.mesh.triangles(**given, spacing=spacing)
+    with pytest.raises(TypeError, match="gradient limits the growth of spacing"):
+        rondel.mesh.triangles(**given, gradient=0.2)
+    with pytest.raises(TypeError, match="depths is no function"):
+        rondel.mesh.triangles(**given, spacing=0.05, depths=np.ones(3))
+
+
 def test_lines_that_cross_make_a_node():
     shapely = pytest.importorskip("shapely")
     cross = shapely.MultiLineString([[(-3, 0), (3, 0)], [(0, -3), (0, 3)]])
