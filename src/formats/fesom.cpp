@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "formats/ocean_lines.h"
 #include "io/file_bytes.h"
@@ -28,6 +29,33 @@ std::vector<double> usual_levels(const std::vector<double>& depths) {
   const double deepest = depths.empty() ? 0 : *std::ranges::max_element(depths);
   return {0, deepest / 2, deepest};
 }
+
+// Makes a folder, and takes it away again where the files in it do not become complete.
+class MadeFolder {
+ public:
+  // Throws FileError if the system refuses.
+  explicit MadeFolder(const std::string& folder) {
+    std::error_code error;
+    std::filesystem::path path(folder);
+    if (!path.has_filename()) path = path.parent_path();  // without the slash
+    for (; !path.empty() && !std::filesystem::exists(path, error); path = path.parent_path()) {
+      made_.push_back(path);
+    }
+    if (made_.empty()) return;
+    std::filesystem::create_directories(made_.front(), error);
+    if (error) throw FileError(folder, error);
+  }
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+  ~MadeFolder() {
+    std::error_code ignored;
+    for (const std::filesystem::path& path : made_) std::filesystem::remove(path, ignored);
+  }
+  void keep() noexcept { made_.clear(); }
+
+ private:
+  std::vector<std::filesystem::path> made_;  // the innermost one first
+};
 
 // Reads a file of the folder. Throws FileError with its name.
 template <class Read>
@@ -163,9 +191,7 @@ void write_fesom(const std::string& folder, const MeshOfFile& mesh) {
   for (const auto& edge : meshing::border_of(arrays.points.size(), arrays.triangles)) {
     is_coast[edge[0]] = true;
   }
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder, error);
+  MadeFolder made(folder);
   FilesTogether together;
   io::AtomicFile nodes(folder + "nod2d.out");
   nodes.write(std::to_string(arrays.points.size()) + '\n');
@@ -193,6 +219,7 @@ void write_fesom(const std::string& folder, const MeshOfFile& mesh) {
   });
   depths.commit();
   together.commit();
+  made.keep();
 }
 
 }  // namespace rondel::formats

@@ -3,9 +3,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tool where files are too large, are cut, or memory runs out: one line, status 1, no file."""
 
+import json
 import os
 import pathlib
 import resource
+import signal
 import struct
 import subprocess
 import sys
@@ -125,6 +127,21 @@ class Faults(unittest.TestCase):
         self.write("deep.geojson", b"[" * LONG)
         self.expect_failure(["delaunay", "deep.geojson", "-o", "out.npy"],
                             "deep.geojson:1: values nested more than 512 deep")
+
+    # --- A disk that is full ---
+
+    def test_no_folder_is_left_without_its_files(self):
+        ring = [[0, 0], [40, 0], [40, 40], [0, 40], [0, 0]]
+        sea = {"type": "Polygon", "coordinates": [ring]}
+        self.write("sea.geojson", json.dumps(sea).encode())
+
+        def limit_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1024, 1024))
+
+        self.expect_failure(["mesh", "triangles", "--area", "sea.geojson", "--spacing", "100",
+                             "--format", "fesom", "-o", "mesh"],
+                            "mesh/nod2d.out: File too large", preexec_fn=limit_files)
 
     # --- Less memory than needed ---
 
