@@ -4,6 +4,7 @@
 #include "edge_table.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -25,13 +26,17 @@ Index site_in(std::string_view text, std::size_t num_sites, const std::string& p
   if (first != std::string_view::npos) {
     text = text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
   }
+  if (text.size() > 2 && text.starts_with('"') && text.ends_with('"')) {
+    text = text.substr(1, text.size() - 2);
+  }
   std::uint64_t site = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), site);
   if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument) {
     throw FileError(shown + "is no index of a site");
   }
   if (error != std::errc() || site >= num_sites) {
-    throw FileError(shown + "is no site; there are " + count(num_sites, "site", "sites") +
+    throw FileError(shown + "is no site; there " + (num_sites == 1 ? "is " : "are ") +
+                    count(num_sites, "site", "sites") +
                     ", counted from 0");
   }
   return static_cast<Index>(site);
@@ -40,6 +45,7 @@ Index site_in(std::string_view text, std::size_t num_sites, const std::string& p
 // Reads the whole of a file. Throws FileError.
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
+  if (!file.is_open()) throw FileError(path, std::error_code(errno, std::generic_category()));
   std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (file && !std::filesystem::is_directory(path)) return text;
   throw FileError(path + ": the file cannot be read");
