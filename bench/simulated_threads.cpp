@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 #include <functional>
+#include <tuple>
 #include <utility>
 
 #include "system/parallel.h"
@@ -101,6 +102,6 @@ void parallel_invoke(unsigned threads, const std::function<void()>& first,
 // Nothing stops here.
 void obey_stop() {}
 StopScope::StopScope(const std::atomic<bool>* stop) noexcept : before_(stop) {}
-StopScope::~StopScope() = default;
+StopScope::~StopScope() { std::ignore = before_; }
 
 }  // namespace rondel::system

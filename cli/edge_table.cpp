@@ -36,8 +36,7 @@ Index site_in(std::string_view text, std::size_t num_sites, const std::string& p
   }
   if (error != std::errc() || site >= num_sites) {
     throw FileError(shown + "is no site; there " + (num_sites == 1 ? "is " : "are ") +
-                    count(num_sites, "site", "sites") +
-                    ", counted from 0");
+                    count(num_sites, "site", "sites") + ", counted from 0");
   }
   return static_cast<Index>(site);
 }

@@ -200,9 +200,9 @@ class FieldFile {
   std::unique_ptr<OpenFields> content_;
 };
 
-/// Says which cells are around the points of a target, for netCDF that is to be written: by the name
-/// of a grid (NamedGrid::mapping()), which may be in a file, or by the bounds of the cells that the file has, if these are
-/// around its points.
+/// Says which cells are around the points of a target, for netCDF that is to be written: by the
+/// name of a grid (NamedGrid::mapping()), which may be in a file, or by the bounds of the cells
+/// that the file has, if these are around its points.
 /// \param target  the name of a grid, or the file that the points are from; nothing is said of others
 /// \param fields  gets the name
 /// \param points  has the points, and gets the bounds: `corners`, or `axes` and `lines`

@@ -104,9 +104,10 @@ struct DomainTriangles {
 RONDEL_API DomainTriangles triangles(const MeshDomain& domain, const TrianglesOptions& options = {},
                                      const Execution& execution = {});
 
-/// Makes a mesh for files of the triangles of a domain: edges that follow a coast are coast, the rest
-/// of the border is open. The nodes have positions in the turn that begins at `west_deg`, with few decimals where these are theirs. Triangles
-/// are counterclockwise by these, too, for which some nodes move by less than 1e-12 degrees.
+/// Makes a mesh for files of the triangles of a domain: edges that follow a coast are coast, the
+/// rest of the border is open. The nodes have positions in the turn that begins at `west_deg`, with
+/// few decimals where these are theirs. Triangles are counterclockwise by these, too, for which
+/// some nodes move by less than 1e-12 degrees.
 /// \throws InvalidInput as triangle_mesh() does for points and triangles; and (the position of the
 ///         triangle) if one is so narrow that it has no area in degrees
 RONDEL_API TriangleMesh triangle_mesh(const DomainTriangles& triangles);

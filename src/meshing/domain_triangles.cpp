@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Steps: put all features into one set, let them meet in corners, simplify them, triangulate their arcs, find the faces of
-// the area and not of the land, fill narrow water, refine what is left, and tell what the edges of
-// the mesh follow.
+// Steps: put all features into one set, let them meet in corners, simplify them, triangulate their
+// arcs, find the faces of the area and not of the land, fill narrow water, refine what is left, and
+// tell what the edges of the mesh follow.
 #include <algorithm>
 #include <array>
 #include <cstdio>

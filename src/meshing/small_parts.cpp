@@ -24,7 +24,7 @@ std::vector<std::pair<Index, double>> areas_in(system::DisjointSets& parts,
   for (Index t = 0; t < triangles.size(); ++t) {
     std::array<Point, 3> corners;
     std::ranges::transform(triangles[t], corners.begin(), [&](Index i) { return points[i]; });
-    std::ranges::rotate(corners, std::ranges::min_element(corners, exact::is_less));
+    std::rotate(corners.begin(), std::ranges::min_element(corners, exact::is_less), corners.end());
     areas.emplace_back(parts[t], map::area_on_left(corners));
   }
   std::ranges::sort(areas);

@@ -18,8 +18,8 @@
 namespace rondel::meshing {
 
 // Returns the mesh's own positions if it has some, else those with few decimals where these are the
-// node's, in the turn that begins at `west_deg` (rondel/longitudes.h), moved where they have to be. Throws InvalidInput (the position of the triangle) that says
-// where if they cannot be.
+// node's, in the turn that begins at `west_deg` (rondel/longitudes.h), moved where they have to be.
+// Throws InvalidInput (the position of the triangle) that says where if they cannot be.
 std::vector<LonLat> sound_positions(const mesh::TriangleMesh& mesh, double west_deg = -180);
 
 }  // namespace rondel::meshing
