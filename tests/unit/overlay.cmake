@@ -34,6 +34,7 @@ rondel_add_test(overlay_test
   overlay/snaps_test.cpp
   overlay/straight_test.cpp
   overlay/subdivision_test.cpp
+  overlay/twins_test.cpp
   overlay/sweep_test.cpp
   overlay/thin_test.cpp
   overlay/touching_test.cpp
