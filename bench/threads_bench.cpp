@@ -18,31 +18,39 @@
 #include "rondel/delaunay.h"
 #include "simulated_threads.h"
 
-int main(int argc, char** argv) {
-  using namespace rondel;
-  const std::uint64_t seed = bench::take_seed(argc, argv);
+namespace rondel::bench {
+namespace {
+
+int run(int argc, char** argv) {
+  const std::uint64_t seed = take_seed(argc, argv);
   const bool has_threads = argc == 5 && std::strcmp(argv[3], "--threads") == 0;
   const int threads = has_threads ? std::atoi(argv[4]) : 64;
   if ((argc != 3 && !has_threads) || threads < 1) {
     std::fprintf(stderr, "usage: threads_bench KIND N [--threads T] [--seed S]\n");
     return 2;
   }
-  bench::Source source(argv[1], argv[2], seed);
+  Source source(argv[1], argv[2], seed);
   const std::vector<Point> sites = source.next();
-  bench::keep_freed_memory();
+  keep_freed_memory();
   const auto build = [&] {
     delaunay(Sites::view(sites), {}, {.threads = static_cast<unsigned>(threads)});
   };
   build();  // fills the heap
-  bench::start_threads_ledger();
+  start_threads_ledger();
   build();
-  const bench::ThreadsLedger ledger = bench::end_threads_ledger();
-  std::printf("{\"sites\": %zu, \"threads\": %d, \"shared\": [", sites.size(), threads);
+  const ThreadsLedger ledger = end_threads_ledger();
+  std::printf(R"({"sites": %zu, "threads": %d, "shared": [)", sites.size(), threads);
   const char* separator = "\n";
-  for (const bench::SharedWork& work : ledger.shared) {
+  for (const SharedWork& work : ledger.shared) {
     std::printf(R"(%s  {"alone": %.6g, "pieces": %zu, "seconds": %.6g, "longest": %.6g})",
                 separator, work.alone, work.num_pieces, work.seconds, work.longest);
     separator = ",\n";
   }
   std::printf("\n ],\n \"alone\": %.6g}\n", ledger.alone);
+  return 0;
 }
+
+}  // namespace
+}  // namespace rondel::bench
+
+int main(int argc, char** argv) { return rondel::bench::run(argc, argv); }

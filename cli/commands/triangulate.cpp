@@ -140,6 +140,21 @@ void require_input(const TriangulateOptions& options) {
   if (!options.constraints.empty()) require_edge_table(options.constraints);
 }
 
+// Names the first site that has another depth than the site in its place that is the node.
+void tell_of_lost_depths(const SiteTable& table, std::span<const Duplicate> duplicates,
+                         std::span<const double> depths) {
+  std::size_t number = 0;
+  const Duplicate* first = nullptr;
+  for (const Duplicate& d : duplicates) {
+    if (d.site >= depths.size() || depths[d.site] == depths[d.representative]) continue;
+    if (number++ == 0) first = &d;
+  }
+  if (number == 0) return;
+  tell(table.where(first->site),
+       {"the depth is not that of " + table.where(first->representative) +
+        " in the same place, which counts (" + count(number, "site", "sites") + " in all)"});
+}
+
 // Writes solid faces as a mesh: those in `inside`, or all. Edges that are constraints are coast.
 void write_for_model(const CommonOptions& common, const Plan& plan,
                      const ConstrainedTriangulation& result, const std::vector<Index>* inside,
@@ -152,6 +167,7 @@ void write_for_model(const CommonOptions& common, const Plan& plan,
     if (is_wanted) triangles.push_back(triangulation.faces()[f]);
   }
   if (triangles.empty()) throw FileError(plan.table.name + ": there are no triangles");
+  tell_of_lost_depths(plan.table, triangulation.duplicates(), depths);
   const mesh::TriangleMesh mesh =
       mesh::triangle_mesh(plan.table.sites, plan.table.positions, triangles, result.edges, depths);
   write_triangles_of(common, {}, mesh, plan.table.name, job);
