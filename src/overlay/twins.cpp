@@ -15,9 +15,6 @@
 namespace rondel::overlay {
 namespace {
 
-constexpr std::size_t rings_per_task = 4096;
-constexpr std::size_t halfedges_per_task = 16384;
-
 class TwinSearch {
  public:
   TwinSearch(std::span<const Index> rings, std::span<const Index> corners, std::size_t num_points,
@@ -39,6 +36,8 @@ class TwinSearch {
   }
 
  private:
+  static constexpr std::size_t rings_per_task = 4096;
+  static constexpr std::size_t halfedges_per_task = 16384;
   // Rows with more are in the order of ends, for searches; others are in that of the halfedges.
   static constexpr std::size_t many = 16;
 
