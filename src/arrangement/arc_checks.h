@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 
 #include "exact/vector.h"
 #include "rondel/error.h"
@@ -35,9 +34,7 @@ inline void validate_points(std::span<const Point> points) {
   const auto is_tiny = [](double x) { return x != 0 && std::abs(x) < least_coordinate; };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& p = points[i];
-    if (!(std::abs(norm(p) - 1) <= max_deviation)) {
-      throw InvalidInput("point " + std::to_string(i) + " is no unit vector", i);
-    }
+    if (!(std::abs(norm(p) - 1) <= max_deviation)) throw InvalidInput("no unit vector", i);
     if (is_tiny(p.x) || is_tiny(p.y) || is_tiny(p.z)) {
       throw InvalidInput("a coordinate is below 2^-150 and not 0", i);
     }

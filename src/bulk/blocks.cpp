@@ -28,7 +28,7 @@ constexpr bool has_threads = true;
 constexpr bool has_threads = false;
 #endif
 
-// Of blocks that are to be more than others.
+// The most sites of a block where larger ones would be too few.
 constexpr std::size_t small_block_sites = default_max_block_sites / 4;
 
 using kernel::Triangulated;

@@ -390,7 +390,8 @@ class TrianglesOfDomain {
     }
     return small.number;
   }
-  // The same after nodes were filled at which the mesh touched itself: that may divide a part.
+  // Leaves small parts out of the mesh that is made: nodes that were filled, at which it touched itself,
+  // may have divided a part.
   [[nodiscard]] std::size_t leave_small_parts_out(DomainTriangles& made) const {
     const meshing::SmallParts small =
         meshing::small_parts(made.mesh.nodes, made.mesh.triangles, options_.smallest_part);

@@ -248,9 +248,10 @@ TEST(regrid_files, refuse_what_does_not_fit) {
             "healpx:4 is neither a file nor a grid: grids are grid:D");
   const std::string table = temporary_path("points.csv");
   std::ofstream(table) << "lon,lat\n0,0\n";
-  EXPECT_EQ(why(table), table +
-                            ": it is neither the name of a grid, nor netCDF with cells, nor "
-                            ".geojson with polygons");
+  EXPECT_EQ(why(table),
+            table +
+                ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
+                "(.geojson, and by GDAL .gpkg .fgb .shp .parquet)");
   EXPECT_EQ(
       why("grid:60", {.source = FileName{"healpix:1", {}}}),
       in + ": no variable has 48 points; left out, as they have no values at the points: warm, "
