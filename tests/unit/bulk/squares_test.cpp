@@ -24,7 +24,7 @@ void expect_tree(const std::vector<bulk::TreeSquare>& squares, Index number, std
   const bulk::Block& block = square.block;
   ASSERT_LT(block.begin, block.end);
   EXPECT_EQ(square.num_sites, static_cast<double>(block.end - block.begin));
-  const std::size_t num_quarters = 4 - std::ranges::count(square.quarters, no_index);
+  const auto num_quarters = 4 - std::ranges::count(square.quarters, no_index);
   EXPECT_EQ(num_quarters == 0, block.end - block.begin <= most);
   Index begin = block.begin;
   unsigned height = 0;

@@ -22,8 +22,6 @@ namespace {
 using Ends = std::array<Index, 2>;
 using Ring = std::vector<Index>;
 
-constexpr double whole = 4 * std::numbers::pi;
-
 Point at(double lon_deg, double lat_deg) {
   const double lon = lon_deg * std::numbers::pi / 180;
   const double lat = lat_deg * std::numbers::pi / 180;

@@ -107,11 +107,11 @@ TEST(triangle_files, have_triangles) {
               "there are no triangles");
   }
   EXPECT_FALSE(std::filesystem::exists(folder.file("a")));
-  for (const auto& [format, text] : std::vector<std::pair<std::string, std::string>>{
+  for (const auto& file : std::vector<std::pair<std::string, std::string>>{
            {"msh", "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"},
            {"gr3", "title\n0 0\n"},
            {"2dm", "MESH2D\nND 1 0 0 0\n"}}) {
-    EXPECT_EQ(thrown_message<FileError>([&] { mesh_in(text, format); }),
+    EXPECT_EQ(thrown_message<FileError>([&] { mesh_in(file.second, file.first); }),
               "<memory>: there are no triangles");
   }
 }

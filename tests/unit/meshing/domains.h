@@ -13,6 +13,7 @@
 #include <tuple>
 #include <vector>
 
+#include "rondel/delaunay.h"
 #include "rondel/mesh_triangles.h"
 #include "rondel/sites.h"
 
