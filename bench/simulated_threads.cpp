@@ -20,7 +20,7 @@ double processor_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// What runs now: a piece, or the program.
+// The work that runs now is that of a piece, or of the program.
 struct Running {
   double since = 0;
   double seconds = 0;  // of all work in it

@@ -28,7 +28,7 @@ struct ThreadsLedger {
 
 // Forgets what was written down. From here on calls count as those of so many threads.
 void start_threads_ledger();
-// What was done since then.
+// Returns what was done since then.
 ThreadsLedger end_threads_ledger();
 
 }  // namespace rondel::bench

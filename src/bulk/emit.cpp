@@ -197,7 +197,7 @@ class Emission {
     }
   }
 
-  // At the edges with these numbers.
+  // Writes the neighbors across the edges with these numbers.
   void write_neighbors(std::size_t first_edge, std::size_t end_edge) {
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();

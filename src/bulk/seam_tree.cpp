@@ -55,7 +55,7 @@ HandedUp hand_up(const BlockResult& block, Index first) {
   return result;
 }
 
-// Not a vector, which would set them to zeros first.
+// The points of seam sites, which a vector would set to zeros first.
 class SeamPoints {
  public:
   template <class PointOf>

@@ -174,7 +174,7 @@ bool Places::keep_residents() {
   return true;
 }
 
-// Many at once take a fraction of the time.
+// Keys that are computed together take a fraction of the time.
 std::vector<order::HilbertKey> Places::keys_of(std::span<const Index> places) const {
   constexpr std::size_t some = 256;
   std::array<Point, some> points;

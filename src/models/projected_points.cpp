@@ -12,7 +12,6 @@
 #include "models/moved_sites.h"
 #include "models/sphere_traits.h"
 #include "system/large_arrays.h"
-#include "system/prefetch.h"
 
 namespace rondel::models {
 namespace {
@@ -25,26 +24,11 @@ using predicates::Vector;
 
 void ProjectedPoints::assign(std::span<const Point> input, std::span<const Index> order,
                              const Point& center) {
-  input_ = input;
-  order_ = order;
   center_ = center;
-  constexpr std::size_t some = 128;
-  std::array<Point, some> points;
   directions_.clear();
   system::reserve_large(directions_, order.size());
   directions_.resize(order.size());
-  for (std::size_t begin = 0; begin < order.size(); begin += some) {
-    const std::size_t count = std::min(some, order.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (begin + i + system::prefetch_distance < order.size()) {
-        system::prefetch(&input[order[begin + i + system::prefetch_distance]]);
-      }
-      points[i] = input[order[begin + i]];
-    }
-    predicates::directions(std::span(points).first(count), center, directions_.data() + begin);
-  }
-  low_parts_ = {};
-  num_low_parts_ = 0;
+  move_all(input, order, {}, 1);
 }
 
 void ProjectedPoints::set(Index a, std::span<const Point> input, std::span<const Index> order) {

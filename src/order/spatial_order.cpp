@@ -112,8 +112,8 @@ class Ordering {
     result_.order.resize(sites_.size());
   }
 
-  // By the calling thread, whose allocator keeps what is freed for the next build. A part of the input
-  // has some sites for each leaf, or its lists would waste memory.
+  // The calling thread makes them, as its allocator keeps what is freed for the next build. A part of the
+  // input has some sites for each leaf, or its lists would waste memory.
   void make_lists() {
     constexpr std::size_t least_of_leaf = 16;
     const std::size_t pieces = threads_ == 1 ? 1 : 4 * threads_;

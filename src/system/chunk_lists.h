@@ -31,7 +31,7 @@ class ChunkLists {
       : chunk_bits_(choose_chunk_bits(num_lists, capacity)),
         num_parts_(num_parts),
         num_lists_(num_lists),
-        // With one chunk that nothing is written to but asked for.
+        // The last chunk is asked for, and nothing is written to it.
         max_chunks_((capacity >> chunk_bits_) + num_lists + 1),
         elements_(make_large_array<T>((num_parts * max_chunks_) << chunk_bits_)),
         previous_(make_large_array<std::uint32_t>(num_parts * max_chunks_)),
@@ -89,7 +89,7 @@ class ChunkLists {
   [[nodiscard]] std::size_t num_parts() const { return num_parts_; }
   // Chunks have 2^chunk_bits() elements.
   [[nodiscard]] int chunk_bits() const { return chunk_bits_; }
-  // What a part has appended to a list.
+  // Returns how much a part has appended to a list.
   [[nodiscard]] std::size_t size(std::size_t part, std::size_t list) const {
     return lists_[part * num_lists_ + list].size;
   }

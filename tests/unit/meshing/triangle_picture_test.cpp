@@ -65,7 +65,7 @@ std::vector<Outline> outlines_of(const std::string& picture) {
   return outlines;
 }
 
-// By the sides to the right.
+// A place is inside of an outline with an odd number of sides to its right.
 bool has(const Outline& outline, const std::array<double, 2>& p) {
   bool is_inside = false;
   for (std::size_t k = 0; k < outline.size(); ++k) {
