@@ -21,6 +21,7 @@
 #include "io/wide_integers.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::formats {
 namespace {
@@ -230,16 +231,13 @@ bool ValueRules::is_missing(double value) const {
 }
 
 void ValueRules::apply(std::span<double> values) const {
-  const auto is_outside = [&](double value) { return value < lowest_ || value > highest_; };
-  const bool has_only_missing = wrapped_ == 0 && !is_packed() && !has_unpacked_range_ &&
-                                (!is_single_ || type_ == io::NetcdfType::float32);
-  if (has_only_missing) {  // nearly all fields of floats; without branches
-    for (const double missing : missing_) {
-      for (double& value : values) value = value == missing ? no_number : value;
-    }
-    for (double& value : values) value = is_outside(value) ? no_number : value;
+  const bool is_simple = wrapped_ == 0 && !has_unpacked_range_ && missing_.size() <= 2 &&
+                         (!is_single_ || type_ == io::NetcdfType::float32);
+  if (is_simple) {
+    system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE { apply_simple(values); });
     return;
   }
+  const auto is_outside = [&](double value) { return value < lowest_ || value > highest_; };
   for (double& value : values) {
     if (wrapped_ != 0) value = as_type(value);
     if (is_missing(value) || (!has_unpacked_range_ && is_outside(value))) {
@@ -248,6 +246,26 @@ void ValueRules::apply(std::span<double> values) const {
     }
     if (is_packed()) value = value * scale_ + offset_;
     if (has_unpacked_range_ && is_outside(value)) value = no_number;
+  }
+}
+
+inline void ValueRules::apply_simple(std::span<double> values) const {
+  const double missing = missing_.empty() ? no_number : missing_.front();
+  const double other = missing_.empty() ? no_number : missing_.back();
+  const double lowest = lowest_;
+  const double highest = highest_;
+  const double scale = scale_;
+  const double offset = offset_;
+  const auto is_lost = [=](double value) {
+    return (value == missing) | (value == other) | (value < lowest) | (value > highest);
+  };
+  if (is_packed()) {
+    for (double& value : values) {
+      const double unpacked = value * scale + offset;
+      value = is_lost(value) ? no_number : unpacked;
+    }
+  } else {
+    for (double& value : values) value = is_lost(value) ? no_number : value;
   }
 }
 

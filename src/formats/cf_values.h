@@ -48,6 +48,9 @@ class ValueRules {
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:
+  // Does what apply() does where at most two numbers mean missing, without branches: nearly all
+  // fields of floats and packed ones are such.
+  void apply_simple(std::span<double> values) const;
   // Reads _Unsigned (rule 4).
   void read_signedness(const io::NetcdfVariable& variable);
   // Reads _FillValue and missing_value, or takes the default fill value (rules 1 and 2).

@@ -31,6 +31,7 @@
 #include "system/checked_product.h"
 #include "system/message_text.h"
 #include "system/parallel.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::formats {
 namespace {
@@ -680,8 +681,10 @@ void FieldSlices::unpack(const SlicedVariable& source, std::span<double> values,
     for (; begin < end; begin += at_a_time) {
       const auto part = values.subspan(begin, std::min(at_a_time, end - begin));
       source.rules.apply(part);
-      unsigned num_infinite = 0;  // without branches
-      for (const double value : part) num_infinite += std::isinf(value) ? 1U : 0U;
+      std::uint64_t num_infinite = 0;  // without branches
+      system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
+        for (const double value : part) num_infinite += std::isinf(value) ? 1U : 0U;
+      });
       if (num_infinite > 0) are_finite = false;
     }
   });

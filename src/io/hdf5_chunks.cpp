@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <bit>
 #include <mutex>
+#include <new>
 #include <type_traits>
+#include <utility>
 
 #include "io/array_rows.h"
 #include "io/hdf5_library.h"
@@ -103,6 +105,28 @@ RowCopier row_copier(NetcdfType type) {
 
 }  // namespace
 
+LargeVector<unsigned char> ChunkMemory::take(std::size_t size) {
+  {
+    const std::scoped_lock guard(lock_);
+    if (!free_.empty() && free_.back().size() != size) free_.clear();
+    if (!free_.empty()) {
+      LargeVector<unsigned char> bytes = std::move(free_.back());
+      free_.pop_back();
+      return bytes;
+    }
+  }
+  return LargeVector<unsigned char>(size);
+}
+
+void ChunkMemory::give_back(LargeVector<unsigned char> bytes) noexcept {
+  const std::scoped_lock guard(lock_);
+  if (!free_.empty() && free_.back().size() != bytes.size()) free_.clear();
+  try {
+    free_.push_back(std::move(bytes));
+  } catch (const std::bad_alloc&) {  // then the next chunk gets new memory
+  }
+}
+
 // Files may have numbers of fewer bits than their bytes, or with another exponent, which HDF5 converts.
 bool Hdf5Chunks::take_type(Hdf5Id array, const VariableInFile& variable) {
   const Hdf5Library& hdf5 = *hdf5_library();
@@ -190,7 +214,8 @@ bool Hdf5Chunks::take_place(const unsigned long long* begin, const StoredChunk& 
 }
 
 std::unique_ptr<const Hdf5Chunks> Hdf5Chunks::find(const std::string& path,
-                                                   const VariableInFile& variable) {
+                                                   const VariableInFile& variable,
+                                                   std::shared_ptr<ChunkMemory> memory) {
   const Hdf5Library* const hdf5 = hdf5_library();
   if (hdf5 == nullptr || variable.shape.empty() || row_copier(variable.type) == nullptr) return {};
   const Hdf5Object array(open_hdf5_array(*hdf5, path, variable.name), hdf5->close_array);
@@ -198,6 +223,7 @@ std::unique_ptr<const Hdf5Chunks> Hdf5Chunks::find(const std::string& path,
   const Hdf5Object properties(hdf5->properties(array.id()), hdf5->close_properties);
   if (!properties.is_open()) return {};
   std::unique_ptr<Hdf5Chunks> made(new Hdf5Chunks);
+  made->memory_ = std::move(memory);
   made->shape_ = variable.shape;
   const std::size_t rank = variable.shape.size();
   std::vector<unsigned long long> lengths(rank, 0);
@@ -257,25 +283,31 @@ std::size_t Hdf5Chunks::number_of(std::span<const std::size_t> start) const {
 
 Hdf5Chunks::ChunkValues Hdf5Chunks::values_of(const FileBytes& file,
                                               const StoredChunk& place) const {
-  const auto is_applied = [&](std::size_t f) { return (place.filters_left_out >> f & 1U) == 0; };
+  const auto is_applied = [&](Filter filter) {
+    const auto at = std::ranges::find(filters_, filter);
+    return at != filters_.end() && (place.filters_left_out >> (at - filters_.begin()) & 1U) == 0;
+  };
+  const bool is_compressed = is_applied(Filter::deflate);
   const std::size_t wanted = values_per_chunk_ * value_size_;
   const std::uint64_t end = file.claimed_size();
   if (place.size > end || place.offset > end - place.size) return {};
-  ChunkValues values;
-  values.bytes.resize(static_cast<std::size_t>(place.size));
-  file.read_at(place.offset, reinterpret_cast<char*>(values.bytes.data()), values.bytes.size());
-  for (std::size_t f = filters_.size(); f-- > 0;) {
-    if (!is_applied(f)) continue;
-    if (filters_[f] == Filter::shuffle) {
-      values.are_shuffled = true;
-      continue;
-    }
-    LargeVector<unsigned char> uncompressed(wanted);
-    if (!zlib_uncompress(values.bytes, uncompressed)) return {};
-    values.bytes.swap(uncompressed);
-  }
-  if (values.bytes.size() != wanted) return {};
+  if (!is_compressed && place.size != wanted) return {};
+  ChunkValues values{memory_->take(wanted), is_applied(Filter::shuffle)};
+  LargeVector<unsigned char> compressed;
+  if (is_compressed) compressed.resize(static_cast<std::size_t>(place.size));
+  LargeVector<unsigned char>& stored = is_compressed ? compressed : values.bytes;
+  file.read_at(place.offset, reinterpret_cast<char*>(stored.data()), stored.size());
+  if (is_compressed && !zlib_uncompress(compressed, values.bytes)) return {};
   return values;
+}
+
+std::shared_ptr<const Hdf5Chunks::ChunkValues> Hdf5Chunks::shared_values_of(
+    const FileBytes& file, const StoredChunk& place) const {
+  auto values = std::make_unique<ChunkValues>(values_of(file, place));
+  return {values.release(), [memory = memory_](ChunkValues* done) {
+            if (!done->bytes.empty()) memory->give_back(std::move(done->bytes));
+            delete done;
+          }};
 }
 
 std::shared_ptr<const Hdf5Chunks::ChunkValues> Hdf5Chunks::chunk_of(const FileBytes& file,
@@ -295,7 +327,7 @@ std::shared_ptr<const Hdf5Chunks::ChunkValues> Hdf5Chunks::chunk_of(const FileBy
       return values;
     }
   }
-  auto values = std::make_shared<const ChunkValues>(values_of(file, places_[number]));
+  std::shared_ptr<const ChunkValues> values = shared_values_of(file, places_[number]);
   if (is_last || values->bytes.empty()) return values;
   const std::scoped_lock guard(lock_);
   if (room_ >= size && kept_.try_emplace(number, values).second) room_ -= size;

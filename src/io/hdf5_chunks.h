@@ -24,6 +24,19 @@
 
 namespace rondel::io {
 
+// Memory for the values of chunks, which the next chunks use again: new memory is cleared first.
+// There is never more than was in use at a time.
+class ChunkMemory {
+ public:
+  // Returns so many bytes of any values.
+  [[nodiscard]] LargeVector<unsigned char> take(std::size_t size);
+  void give_back(LargeVector<unsigned char> bytes) noexcept;
+
+ private:
+  system::Mutex lock_;
+  std::vector<LargeVector<unsigned char>> free_;  // all of one size
+};
+
 class Hdf5Chunks {
  public:
   // Returns null if the variable is not in chunks that this class can read: of numbers of at most 32
@@ -31,7 +44,8 @@ class Hdf5Chunks {
   // shuffled bytes. `path` is the name that netCDF-C was given. Precondition: the lock of netCDF-C is
   // held.
   static std::unique_ptr<const Hdf5Chunks> find(const std::string& path,
-                                                const VariableInFile& variable);
+                                                const VariableInFile& variable,
+                                                std::shared_ptr<ChunkMemory> memory);
 
   // Returns the number of values of a chunk.
   [[nodiscard]] std::size_t num_values() const { return values_per_chunk_; }
@@ -77,10 +91,14 @@ class Hdf5Chunks {
   // True if a box has the last value of its chunk.
   [[nodiscard]] bool has_last(const NetcdfBox& box) const;
   [[nodiscard]] ChunkValues values_of(const FileBytes& file, const StoredChunk& place) const;
+  // Returns the values of a chunk, whose memory others use again at the end.
+  [[nodiscard]] std::shared_ptr<const ChunkValues> shared_values_of(const FileBytes& file,
+                                                                    const StoredChunk& place) const;
   // Returns the values of the chunk of a box, which are kept or read.
   [[nodiscard]] std::shared_ptr<const ChunkValues> chunk_of(const FileBytes& file,
                                                             const NetcdfBox& box) const;
 
+  std::shared_ptr<ChunkMemory> memory_;
   std::vector<std::uint64_t> shape_;
   std::vector<std::uint64_t> chunk_;  // lengths
   std::vector<Filter> filters_;       // in the order in which they were applied

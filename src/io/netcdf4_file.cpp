@@ -340,7 +340,7 @@ const Hdf5Chunks* Netcdf4File::chunks(const VariableInFile& variable) const {
   if (path_.empty()) return nullptr;
   const NetcdfLock lock(netcdf_library_lock());
   const auto [at, is_new] = chunks_.try_emplace({variable.group, variable.number});
-  if (is_new) at->second = Hdf5Chunks::find(path_, variable);
+  if (is_new) at->second = Hdf5Chunks::find(path_, variable, memory_);
   return at->second.get();
 }
 

@@ -69,6 +69,7 @@ class Netcdf4File {
   const NetcdfLibrary& library_;
   int number_ = 0;
   std::string path_;  // empty if the file is in memory
+  std::shared_ptr<ChunkMemory> memory_ = std::make_shared<ChunkMemory>();
   // The results of chunks() by the numbers of a group and of a variable; null for those that
   // netCDF-C reads.
   mutable std::map<std::pair<int, int>, std::unique_ptr<const Hdf5Chunks>> chunks_;
