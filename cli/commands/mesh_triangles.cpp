@@ -267,9 +267,9 @@ void add_spacing(CLI::App& parser, MeshTrianglesOptions& options) {
       ->type_name("KM");
   parser
       .add_option("--weld", options.weld_km,
-                  "Put corners that are nearer than this to another corner or to a side there, as\n"
-                  "where rounded borders leave gaps (default: 1e-4 of the spacing, at most the\n"
-                  "tolerance)")
+                  "Put corners that are nearer than this to a corner or a side of another outline\n"
+                  "there, as where rounded borders leave gaps (default: 1e-4 of the spacing, at\n"
+                  "most the tolerance)")
       ->check([](const std::string& text) { return range_error(text, 0, 5000); })
       ->type_name("KM");
   parser

@@ -35,7 +35,12 @@ struct LongitudeExtent {
 /// 3. else the least longitude if they span at most 360 degrees, as -280 to 80 do, or 350 to 370;
 /// 4. else -180.
 ///
+/// Of the turns from -180 and from 0 one meridian has two longitudes. Results have 180 there, and 0;
+/// but -180 where `given` has it and does not reach 180, and 360 where it has that and does not reach
+/// 0: then the turn begins 1e-5 degrees beside that meridian.
+///
 /// Longitudes may exceed these limits by 1e-6 degrees, as rounded ones do.
+/// \param given  of what surrounds the results
 /// \param otherwise  decides if `given` is empty
 RONDEL_API double west_of(const LongitudeExtent& given, const LongitudeExtent& otherwise = {});
 

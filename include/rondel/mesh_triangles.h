@@ -48,11 +48,14 @@ struct TrianglesOptions {
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
   /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider vanish.
   /// Where features cross, they have corners before they are simplified, and polygons of the coast,
-  /// or of the area, that overlap are united: so a coast leaves the area where it did.
+  /// or of the area, that overlap are united: so a coast leaves the area where it did. The clearance
+  /// is a quarter of the tolerance.
   std::optional<double> tolerance = std::nullopt;
   /// Corners, ends and points that are nearer than this, in radians, to another one or to a side are
   /// put there before anything else is done: for gaps and overlaps that rounded numbers leave along
-  /// borders. At most pi / 4.
+  /// borders. Of one line or ring that is done where the way along it is more than eight times as
+  /// long. Rings that are no larger vanish, and polygons that have changed are repaired. At most
+  /// pi / 4.
   std::optional<double> weld = std::nullopt;
   /// Water that is narrower than this share of the spacing, from 0 to 1, becomes land: straits,
   /// coves and the ends of fjords, where edges would be as short as the water is narrow. 0 keeps
@@ -89,8 +92,8 @@ struct DomainTriangles {
 /// narrow water and leaves small parts out, if that is wanted; and refines (rondel/mesh_refine.h).
 ///
 /// Features that touch up to rounding are welded: corners that are nearer to another corner, or to a
-/// side, than 1e-4 of the spacing and than the tolerance, or than 1e-12 radians, are put there. A gap as
-/// narrow as that would have triangles of its size.
+/// side, than 1e-4 of the spacing and than the tolerance, or than 1e-12 radians, are put there, before
+/// features are simplified. A gap as narrow as that would have triangles of its size.
 ///
 /// Where the coasts leave an open hemisphere free and there is no area, corners of an icosahedron
 /// are nodes there.

@@ -31,6 +31,10 @@ struct SimplifyOptions {
   bool drop_small = false;
   /// Whether corners stay that are on a ring of one polygon alone: the boundary of a coverage.
   bool keep_boundary = false;
+  /// An arc that replaces others keeps away from other corners by this share of the tolerance, from
+  /// 0 to 1, or as far as the arcs were, if that is nearer: so no strait becomes a slit. A corner
+  /// that is not twice as far from the ends of the arc as from the arc does not count.
+  double clearance = 0;
 };
 
 /// Lines and polygons of features.
@@ -69,8 +73,8 @@ struct SimplifiedFeatures {
 /// docs/theory/simplification.md.
 /// \param lines  the points and lines of each feature; points are never removed
 /// \param polygons  cells with any number of rings, one for each feature or of other features
-/// \throws InvalidInput if offsets do not fit, a tolerance is negative or not finite; (the position
-///         of the side among the corners) if a side leads to the opposite point, up to 2^-45; (the
+/// \throws InvalidInput if offsets do not fit, a tolerance is negative or not finite, or the clearance
+///         is not from 0 to 1; (the position of the side among the corners) if a side leads to the opposite point, up to 2^-45; (the
 ///         position of the point) if a point is not as arrange() wants it; (index of the feature)
 ///         if a line has such a point or side.
 RONDEL_API SimplifiedFeatures simplified(const FeatureLines& lines, const CellRings& polygons,

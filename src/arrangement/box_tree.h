@@ -34,6 +34,12 @@ struct SpaceBox {
     }
     return num_overlapping == 6;
   }
+  void widen(double reach) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] -= reach;
+      high[i] += reach;
+    }
+  }
   void include(const SpaceBox& other) {
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], other.low[i]);

@@ -60,10 +60,12 @@ class ArcDistance {
 
 class CornerRemoval {
  public:
-  CornerRemoval(const LineNetwork& network, std::vector<double> limits, unsigned threads)
+  CornerRemoval(const LineNetwork& network, std::vector<double> limits, double clearance,
+                unsigned threads)
       : network_(network),
         points_(network.points),
         limits_(std::move(limits)),
+        clearance_(clearance),
         threads_(threads),
         links_(network.neighbors),
         states_(points_.size(), NodeState::kept),
@@ -145,6 +147,8 @@ class CornerRemoval {
                           [&](Index other) { return is_left(other) && triangle.has(other); });
   }
 
+  [[nodiscard]] Index blocker_of(Index node) const;
+
   void look_again_at_freed();
   void rank_changed();
   void renew_tree();
@@ -155,6 +159,7 @@ class CornerRemoval {
   const LineNetwork& network_;
   std::span<const Point> points_;
   std::vector<double> limits_;
+  double clearance_;
   unsigned threads_;
   std::vector<std::array<Index, 2>> links_;  // neighbors that are left, on the sides of those given
   std::vector<NodeState> states_;
@@ -259,15 +264,66 @@ void CornerRemoval::renew_tree() {
   if (num_left_ < tree_.size() / 4 * 3) tree_ = PointTree(points_, nodes_left(), threads_);
 }
 
-// Returns for each candidate that comes before its neighbors a node in its triangle, or no_index;
-// for others themselves.
+// The arc that would take the place of a node, and the two arcs to that node.
+class Clearance {
+ public:
+  // `limit`: the squared sine of the distance that the arc keeps from other nodes.
+  Clearance(std::span<const Point> points, Index a, Index node, Index c, double limit)
+      : a_(points[std::min(a, c)]),
+        c_(points[std::max(a, c)]),
+        arc_(a_, c_),
+        first_(points[std::min(a, node)], points[std::max(a, node)]),
+        second_(points[std::min(node, c)], points[std::max(node, c)]),
+        limit_(limit) {}
+
+  // Returns a distance within which all nodes are that the arc may be too near to: half of that to an
+  // end of it, and so 0.6 of its length. Chords are less than 1.1 times the sines of tolerances.
+  [[nodiscard]] double reach() const {
+    return 1.1 * std::sqrt(std::min(limit_, 0.36 * dot(a_ - c_, a_ - c_)));
+  }
+  // True if the arc would come too near to a place that was farther from the line. Places near an
+  // end, such as the next nodes of the line, were as near to it before.
+  [[nodiscard]] bool is_lost_at(const Point& p) const {
+    const double distance = arc_.squared_sine(p);
+    return distance < limit_ && 4 * distance < std::min(dot(p - a_, p - a_), dot(p - c_, p - c_)) &&
+           distance < std::min(first_.squared_sine(p), second_.squared_sine(p));
+  }
+
+ private:
+  Point a_;
+  Point c_;
+  ArcDistance arc_;
+  ArcDistance first_;
+  ArcDistance second_;
+  double limit_;
+};
+
+// Returns a node in the triangle between a node and its neighbors, or one that the arc between these
+// would come too near to; or no_index.
+Index CornerRemoval::blocker_of(Index node) const {
+  const double limit = clearance_ * clearance_ * limits_[node];
+  if (!(limit > 0)) return node_in_triangle(node);
+  const Index a = links_[node][0];
+  const Index c = links_[node][1];
+  const NodeTriangle triangle(points_, a, node, c);
+  const Clearance clearance(points_, a, node, c, limit);
+  SpaceBox box = triangle.box();
+  box.widen(clearance.reach());
+  return tree_.first_in(box, [&](Index other) {
+    if (!is_left(other) || other == a || other == c || other == node) return false;
+    return clearance.is_lost_at(points_[other]) || triangle.has(other);
+  });
+}
+
+// Returns for each candidate that comes before its neighbors a node in its triangle or too near, or
+// no_index; for others themselves.
 std::vector<Index> CornerRemoval::searched_blockers() const {
   std::vector<Index> blockers(candidates_.size());
   system::parallel_for(threads_, blockers.size(), removal_grain,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            const Index node = candidates_[i];
-                           blockers[i] = is_first(node) ? node_in_triangle(node) : node;
+                           blockers[i] = is_first(node) ? blocker_of(node) : node;
                          }
                        });
   return blockers;
@@ -366,11 +422,11 @@ double squared_sine_below(double tolerance) {
 }
 
 std::vector<NodeState> removed_nodes(const LineNetwork& network, std::vector<double> limits,
-                                     bool drops_loops, unsigned threads) {
-  CornerRemoval removal(network, std::move(limits), threads);
+                                     const RemovalRules& rules, unsigned threads) {
+  CornerRemoval removal(network, std::move(limits), rules.clearance, threads);
   do {
     removal.remove_corners();
-  } while (drops_loops && removal.drop_loops());
+  } while (rules.drops_loops && removal.drop_loops());
   return removal.take_states();
 }
 

@@ -21,7 +21,7 @@ enum class NodeState : std::uint8_t {
   changed,    // its neighbors are others than when it was looked at
   far,        // the arc that would replace it is too far away, or is already there
   candidate,  // it may go if it comes before its neighbors
-  blocked,    // another node is in the triangle with its neighbors
+  blocked,    // another node is in the triangle with its neighbors, or too near
   removed,
   dropped,  // with the last three nodes of a loop
 };
@@ -30,9 +30,14 @@ enum class NodeState : std::uint8_t {
 // test of distances; 0 for tolerances that allow nothing.
 double squared_sine_below(double tolerance);
 
-// `limits`: squared_sine_below() of the tolerance of each node. `drops_loops`: loops go that are
-// within the tolerance of one of their sides. The result does not depend on the threads.
+struct RemovalRules {
+  bool drops_loops = false;  // those that are within the tolerance of one of their sides
+  double clearance = 0;      // the share of the tolerance that new arcs keep from other nodes
+};
+
+// `limits`: squared_sine_below() of the tolerance of each node. The result does not depend on the
+// threads.
 std::vector<NodeState> removed_nodes(const LineNetwork& network, std::vector<double> limits,
-                                     bool drops_loops, unsigned threads);
+                                     const RemovalRules& rules, unsigned threads);
 
 }  // namespace rondel::arrangement

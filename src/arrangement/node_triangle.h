@@ -61,11 +61,7 @@ class NodeTriangle {
       box.include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
     }
     if (longest > 1) return whole_box;
-    const double reach = longest / 3 + rounding;
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] -= reach;
-      box.high[i] += reach;
-    }
+    box.widen(longest / 3 + rounding);
     return box;
   }
 

@@ -15,8 +15,8 @@
 
 #include "arrangement/corner_removal.h"
 #include "arrangement/line_network.h"
+#include "map/ring_area.h"
 #include "rondel/error.h"
-#include "rondel/predicates.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -44,27 +44,26 @@ std::vector<double> limits_of(const LineNetwork& network, const SimplifyOptions&
 // Reads what is left of rings and lines.
 class LeftNodes {
  public:
-  LeftNodes(const LineNetwork& network, std::span<const NodeState> states)
-      : network_(network), states_(states) {}
+  explicit LeftNodes(std::span<const NodeState> states) : states_(states) {}
 
   [[nodiscard]] bool is_left(Index node) const { return states_[node] < NodeState::removed; }
   [[nodiscard]] bool is_dropped(std::span<const Index> ring) const {
     return std::ranges::any_of(ring, [&](Index n) { return states_[n] == NodeState::dropped; });
   }
-  // True if the right side of a ring that was dropped was its small side.
-  [[nodiscard]] bool is_hole(std::span<const Index> ring) const {
-    std::vector<Point> last;
-    for (const Index node : ring) {
-      if (states_[node] == NodeState::dropped) last.push_back(network_.points[node]);
-    }
-    return orientation(last[0], last[1], last[2]) == Sign::negative;
-  }
 
  private:
-  const LineNetwork& network_;
   std::span<const NodeState> states_;
 };
 
+// Returns the points of some of the network's nodes.
+std::vector<Point> points_of(std::span<const Index> ring, const LineNetwork& network) {
+  std::vector<Point> points;
+  for (const Index node : ring) points.push_back(network.points[node]);
+  return points;
+}
+
+// A polygon of which all rings are dropped becomes what is outside of all of them: nothing for an
+// island, with or without a lake, and the whole sphere for the land around a lake.
 CellRings polygons_left(const CellRings& given, const LineNetwork& network,
                         const LeftNodes& nodes) {
   std::vector<Index> numbers(network.points.size(), no_index);
@@ -78,11 +77,11 @@ CellRings polygons_left(const CellRings& given, const LineNetwork& network,
     result.points.push_back(network.points[node]);
   }
   for (std::size_t cell = 0; cell < given.num_cells(); ++cell) {
-    bool is_whole = given.is_whole(cell);
+    std::vector<std::vector<Point>> dropped;
     for (std::uint64_t r = given.cells[cell]; r < given.cells[cell + 1]; ++r) {
       const std::span<const Index> ring = network.rings[r];
       if (nodes.is_dropped(ring)) {
-        is_whole |= nodes.is_hole(ring);
+        dropped.push_back(points_of(ring, network));
         continue;
       }
       for (const Index node : ring) {
@@ -90,7 +89,8 @@ CellRings polygons_left(const CellRings& given, const LineNetwork& network,
       }
       result.end_ring();
     }
-    if (is_whole && result.rings.size() - 1 == result.cells.back()) {
+    const bool has_rings = result.rings.size() - 1 != result.cells.back();
+    if (!has_rings && (given.is_whole(cell) || map::areas_on_left(dropped) < 0)) {
       result.whole.push_back(static_cast<Index>(cell));
     }
     result.end_cell();
@@ -116,11 +116,15 @@ FeatureLines lines_left(const FeatureLines& given, const LineNetwork& network,
 SimplifiedFeatures simplified(const FeatureLines& lines, const CellRings& polygons,
                               const SimplifyOptions& options, const Execution& execution) {
   const system::Call call(execution);
+  if (!(options.clearance >= 0 && options.clearance <= 1)) {
+    throw InvalidInput("the clearance is not from 0 to 1");
+  }
   const LineNetwork network =
       arrangement::line_network(lines, polygons, options.keep_boundary, execution.threads);
   const std::vector<NodeState> states = arrangement::removed_nodes(
-      network, limits_of(network, options), options.drop_small, execution.threads);
-  const LeftNodes nodes(network, states);
+      network, limits_of(network, options),
+      {.drops_loops = options.drop_small, .clearance = options.clearance}, execution.threads);
+  const LeftNodes nodes(states);
   return {lines_left(lines, network, nodes), polygons_left(polygons, network, nodes)};
 }
 

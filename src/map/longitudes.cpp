@@ -27,10 +27,19 @@ double west_of(const LongitudeExtent& given, const LongitudeExtent& otherwise) {
     return all.least >= west_deg - map::lon_rounding_deg &&
            all.greatest <= west_deg + 360 + map::lon_rounding_deg;
   };
-  for (const double west_deg : {-180.0, 0.0, all.least}) {
-    if (is_in_turn_from(west_deg)) return west_deg;
+  const auto is_at = [](double lon_deg, double meridian_deg) {
+    return std::abs(lon_deg - meridian_deg) <= map::lon_rounding_deg;
+  };
+  constexpr double beside_deg = 1e-5;
+  if (is_in_turn_from(-180)) {
+    const bool is_west = is_at(given.least, -180) && given.greatest < 180 - 2 * beside_deg;
+    return is_west ? -180 - beside_deg : -180;
   }
-  return -180;
+  if (is_in_turn_from(0)) {
+    const bool is_east = is_at(given.greatest, 360) && given.least > 2 * beside_deg;
+    return is_east ? beside_deg : 0;
+  }
+  return is_in_turn_from(all.least) ? all.least : -180;
 }
 
 }  // namespace rondel

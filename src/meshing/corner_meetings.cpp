@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "map/ring_area.h"
+#include "overlay/single_cells.h"
 #include "rondel/arrangement.h"
 #include "rondel/constrained_features.h"
 #include "rondel/set_operations.h"
@@ -114,16 +116,17 @@ Geometries without_small_rings(const Geometries& all, const SimplifyOptions& opt
   Geometries result{all.lines, {}};
   result.polygons.points = std::move(alone.polygons.points);
   for (std::size_t cell = 0; cell < all.polygons.num_cells(); ++cell) {
-    bool is_whole = false;
+    std::vector<std::vector<Point>> dropped;
     const std::size_t num_before = result.polygons.rings.size();
     for (std::uint64_t r = all.polygons.cells[cell]; r < all.polygons.cells[cell + 1]; ++r) {
       if (left.cells[first + r] == left.cells[first + r + 1]) {
-        is_whole = is_whole || left.is_whole(first + r);
+        dropped.push_back(overlay::points_of_ring(all.polygons, r));
       } else {
         result.polygons.append_ring(all.polygons.corners_of(r));
       }
     }
-    if (is_whole && result.polygons.rings.size() == num_before) {
+    // As in simplified(): what is outside of all rings is left.
+    if (result.polygons.rings.size() == num_before && map::areas_on_left(dropped) < 0) {
       result.polygons.whole.push_back(static_cast<Index>(cell));
     }
     result.polygons.end_cell();

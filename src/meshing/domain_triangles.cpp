@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -137,10 +138,13 @@ class TrianglesOfDomain {
   DomainTriangles run(const MeshDomain& domain) {
     take(domain);
     if (const auto& near = options_.weld) {
-      meshing::weld(all_, [&](const Point&) { return *near; });
+      weld([&](const Point&) { return *near; });
+      require_area("the distance of welding");
     }
     simplify();
-    require_area();
+    require_area(options_.tolerance ? "the tolerance with which it is simplified"
+                                    : "a quarter of the spacing, with which it is simplified "
+                                      "unless there is a tolerance");
     triangulate();
     require_possible_number();
     const double filled_area = options_.fill_narrow > 0 ? fill_narrow() : 0;
@@ -170,7 +174,8 @@ class TrianglesOfDomain {
   }
 
   void simplify() {
-    SimplifyOptions simplify{.tolerance = options_.tolerance.value_or(0), .drop_small = true};
+    SimplifyOptions simplify{
+        .tolerance = options_.tolerance.value_or(0), .drop_small = true, .clearance = clearance};
     const auto& spacing = options_.refine.spacing;
     if (!options_.tolerance && spacing) {
       simplify.tolerance_at = [&](const Point& place) { return spacing->spacing(place) / 4; };
@@ -179,19 +184,25 @@ class TrianglesOfDomain {
     }
     simplify_by(simplify);
   }
-  // Features that cross are simplified after they have corners there, and polygons that overlap as one:
-  // so coasts, borders and lines keep their topology.
+  // Polygons that overlap are simplified as one, and features that cross after they have corners
+  // there: so coasts, borders and lines keep their topology.
   void simplify_by(const SimplifyOptions& simplify) {
     weld_features();
     if (meshing::meeting_in_corners(all_, execution_)) {
+      meshing::unite_polygons(0, end_of_coast_, all_, execution_);
+      meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
+      take_whole();
       all_ = meshing::without_small_rings(all_, simplify, execution_);
       take_whole();
       if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
-      meshing::unite_polygons(0, end_of_coast_, all_, execution_);
-      meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
     }
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    take_whole();
+  }
+
+  void weld(const std::function<double(const Point&)>& near_at) {
+    meshing::weld(all_, near_at);
     take_whole();
   }
 
@@ -208,7 +219,7 @@ class TrianglesOfDomain {
     const auto is_new = [&](const Point& place) {
       return std::ranges::binary_search(new_corners, place, exact::is_less);
     };
-    SimplifyOptions simplify;
+    SimplifyOptions simplify{.clearance = clearance};
     simplify.tolerance_at = [&](const Point& place) {
       if (!is_new(place)) return 0.0;
       const double quarter = options_.refine.spacing->spacing(place) / 4;
@@ -217,16 +228,12 @@ class TrianglesOfDomain {
     simplify_by(simplify);
   }
 
-  // Throws InvalidInput if the simplification has left nothing of the area.
-  void require_area() const {
+  // Throws InvalidInput if nothing of the area is left; `what` says what it is nowhere wider than.
+  void require_area(const std::string& what) const {
     if (is_everywhere_ || all_.polygons.cells[end_of_coast_] != all_.polygons.cells[end_of_area_]) {
       return;
     }
-    throw InvalidInput("nothing is left for triangles: the area is nowhere wider than " +
-                       (options_.tolerance
-                            ? std::string("the tolerance with which it is simplified")
-                            : std::string("a quarter of the spacing, with which it is simplified "
-                                          "unless there is a tolerance")));
+    throw InvalidInput("nothing is left for triangles: the area is nowhere wider than " + what);
   }
 
   // Throws InvalidInput if the spacing asks for more nodes than a mesh may have.
@@ -253,7 +260,7 @@ class TrianglesOfDomain {
   // Triangulates all features, and finds the faces of the mesh. Where corners of the features have
   // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
   void triangulate() {
-    weld_features();
+    weld([](const Point&) { return meshing::rounding_of_places; });
     features_ = constraints_of_features(all_.lines, all_.polygons);
     triangulate_sites();
     const Triangulation& first = triangulation_.triangulation;
@@ -276,14 +283,14 @@ class TrianglesOfDomain {
   }
 
   // Closes gaps that only rounding leaves between features: of numbers in files, as the spacing sees
-  // it, and of unit vectors.
+  // it.
   void weld_features() {
     constexpr double share = 1e-4;
-    constexpr double least = 1e-12;
     const auto& spacing = options_.refine.spacing;
-    meshing::weld(all_, [&](const Point& place) {
+    weld([&](const Point& place) {
       const double near = spacing ? share * spacing->spacing(place) : 0;
-      return std::max(least, std::min(near, options_.tolerance.value_or(near)));
+      return std::max(meshing::rounding_of_places,
+                      std::min(near, options_.tolerance.value_or(near)));
     });
   }
 
@@ -423,6 +430,9 @@ class TrianglesOfDomain {
     }
     return result;
   }
+
+  // The share of the tolerance that simplified coasts keep from each other: a sixteenth of the spacing.
+  static constexpr double clearance = 0.25;
 
   const TrianglesOptions& options_;
   const Execution& execution_;

@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +19,9 @@
 #include "arrangement/box_tree.h"
 #include "exact/point_order.h"
 #include "exact/vector.h"
+#include "map/ring_area.h"
+#include "overlay/single_cells.h"
+#include "rondel/set_operations.h"
 #include "system/distinct.h"
 
 namespace rondel::meshing {
@@ -29,6 +36,24 @@ SpaceBox box_around(const Point& p, double near) {
 
 double squared(double x) { return x * x; }
 
+// Places of one outline that are as near along it as so many times the distance of the weld are no
+// gap but its own shape, which the simplification treats: a weld could turn a small ring inside out.
+constexpr double along_outline = 8;
+
+// Lengths along outlines are whole numbers of this unit, whose sums no order changes.
+constexpr double units = 0x1p50;
+
+std::int64_t length_of(const Point& a, const Point& b) {
+  return std::llround(units * norm(exact::to_vector(a) - exact::to_vector(b)));
+}
+
+// Where a site is on a line or a ring that has it.
+struct PlaceOnRow {
+  Index site;
+  Index row;
+  std::int64_t along;  // the length of the way there
+};
+
 class Weld {
  public:
   Weld(Geometries& features, const std::function<double(const Point&)>& near_at)
@@ -42,21 +67,23 @@ class Weld {
     numbers_ = std::move(numbers);
     for (const Point& site : sites_) near_.push_back(near_at(site));
     for (Index i = 0; i < sites_.size(); ++i) places_.push_back(i);
+    for_each_row([&](std::uint64_t begin, std::uint64_t end, bool is_ring) {
+      take_places(begin, end, is_ring);
+    });
+    std::ranges::sort(on_rows_, {},
+                      [](const PlaceOnRow& at) { return std::tuple(at.site, at.row, at.along); });
   }
 
   void run() {
     unite_sites();
     for (Index& number : numbers_) number = places_[number];
-    const auto& lines = features_.lines.rows;
-    for (std::size_t r = 0; r < lines.size(); ++r) {
-      add_sides(lines.offsets[r], lines.offsets[r + 1], false);
-    }
-    const auto& rings = features_.polygons.rings;
-    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
-      add_sides(lines.values.size() + rings[r], lines.values.size() + rings[r + 1], true);
-    }
+    for_each_row([&](std::uint64_t begin, std::uint64_t end, bool is_ring) {
+      add_sides(begin, end, is_ring);
+    });
     find_sites_on_sides();
-    if (num_united_ > 0 || !on_sides_.empty()) features_ = welded();
+    if (num_united_ == 0 && on_sides_.empty() && !has_tiny_ring()) return;
+    FeatureLines lines = welded_lines();
+    features_ = {std::move(lines), welded_polygons()};
   }
 
  private:
@@ -68,6 +95,50 @@ class Weld {
     double along;
     Index site;
   };
+
+  // Calls visit(begin, end, is_ring) for the points of each line, and for the corners of each ring.
+  template <class Visit>
+  void for_each_row(const Visit& visit) const {
+    const auto& lines = features_.lines.rows;
+    for (std::size_t r = 0; r < lines.size(); ++r) {
+      visit(lines.offsets[r], lines.offsets[r + 1], false);
+    }
+    const auto& rings = features_.polygons.rings;
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+      visit(lines.values.size() + rings[r], lines.values.size() + rings[r + 1], true);
+    }
+  }
+
+  // Takes the places of sites on the next line or ring.
+  void take_places(std::uint64_t begin, std::uint64_t end, bool is_ring) {
+    const auto row = static_cast<Index>(lengths_.size());
+    std::int64_t along = 0;
+    for (std::uint64_t k = begin; k < end; ++k) {
+      on_rows_.push_back({numbers_[k], row, along});
+      const bool is_last = k + 1 == end;
+      if (is_last && !is_ring) break;
+      along += length_of(sites_[numbers_[k]], sites_[numbers_[is_last ? begin : k + 1]]);
+    }
+    lengths_.push_back(is_ring ? along : std::numeric_limits<std::int64_t>::max());
+  }
+  // True if two sites are so near along a line or a ring that this has its shape between them.
+  [[nodiscard]] bool are_of_one_shape(Index i, Index j) const {
+    const std::int64_t most = std::llround(units * along_outline * near_[i]);
+    const auto places_of = [&](Index site) {
+      const auto begin = std::ranges::lower_bound(on_rows_, site, {}, &PlaceOnRow::site);
+      const auto end = std::ranges::upper_bound(on_rows_, site, {}, &PlaceOnRow::site);
+      return std::span(begin, end);
+    };
+    const auto of_j = places_of(j);
+    for (const PlaceOnRow& a : places_of(i)) {
+      for (const PlaceOnRow& b : of_j) {
+        if (a.row != b.row) continue;
+        const std::int64_t way = std::abs(a.along - b.along);
+        if (std::min(way, lengths_[a.row] - way) <= most) return true;
+      }
+    }
+    return false;
+  }
 
   // Gives sites that are too near to one with smaller coordinates the place of that one: the order of
   // sites changes nothing.
@@ -82,7 +153,9 @@ class Weld {
       if (places_[i] != i) continue;
       tree.visit(box_around(sites[i], near_[i]), [&](Index j) {
         const Point step = sites[j] - sites[i];
-        if (!is_before(i, j) || places_[j] != j || dot(step, step) > squared(near_[i])) return;
+        const double distance = dot(step, step);
+        if (!is_before(i, j) || places_[j] != j || distance > squared(near_[i])) return;
+        if (distance > squared(rounding_of_places) && are_of_one_shape(i, j)) return;
         places_[j] = i;
         ++num_united_;
       });
@@ -130,6 +203,10 @@ class Weld {
     const Point normal = normalized(across);
     const double height = dot(normal, p);
     if (!(height * height <= squared(near_[site]))) return;
+    if (std::abs(height) > rounding_of_places &&
+        (are_of_one_shape(site, begin) || are_of_one_shape(site, end))) {
+      return;
+    }
     const Point foot = p - height * normal;
     const bool is_between = dot(normal, cross(a, foot)) > 0 && dot(normal, cross(foot, b)) > 0;
     if (!is_between) return;
@@ -155,41 +232,100 @@ class Weld {
     return chain;
   }
 
-  Geometries welded() {
-    Geometries made;
-    const auto& lines = features_.lines;
+  [[nodiscard]] std::vector<Point> points_of(std::span<const Index> sites) const {
+    std::vector<Point> points;
+    for (const Index site : sites) points.push_back(sites_[site]);
+    return points;
+  }
+
+  // True if all sites of a ring are near the one with the smallest coordinates.
+  [[nodiscard]] bool is_tiny(std::span<const Index> ring) const {
+    const Index least = *std::ranges::min_element(
+        ring, [&](Index i, Index j) { return exact::is_less(sites_[i], sites_[j]); });
+    return std::ranges::all_of(ring, [&](Index site) {
+      const Point step = sites_[site] - sites_[least];
+      return dot(step, step) <= squared(near_[least]);
+    });
+  }
+  [[nodiscard]] bool has_tiny_ring() const {
+    const auto& rings = features_.polygons.rings;
+    const auto first = static_cast<std::ptrdiff_t>(features_.lines.rows.values.size());
+    for (std::size_t r = 0; r + 1 < rings.size(); ++r) {
+      const auto begin = numbers_.begin() + first + static_cast<std::ptrdiff_t>(rings[r]);
+      const auto size = static_cast<std::size_t>(rings[r + 1] - rings[r]);
+      if (size > 0 && is_tiny(std::span(begin, size))) return true;
+    }
+    return false;
+  }
+
+  // True if a small ring has its inside on the other side than the ring that was given.
+  static bool is_inverted(std::span<const Point> ring, std::span<const Point> given) {
+    constexpr double small = 0.1;
+    const double area = map::area_on_left(ring);
+    if (std::abs(area) > small) return false;
+    const double before = map::area_on_left(given);
+    return std::abs(before) < small && (area < 0) != (before < 0);
+  }
+
+  FeatureLines welded_lines() {
+    FeatureLines made;
+    const FeatureLines& lines = features_.lines;
     for (std::size_t i = 0; i < lines.size(); ++i) {
       for (std::uint64_t r = lines.offsets[i]; r < lines.offsets[i + 1]; ++r) {
-        std::vector<Point> line;
-        for (const Index site :
-             next_chain(lines.rows.offsets[r], lines.rows.offsets[r + 1], false)) {
-          line.push_back(sites_[site]);
-        }
-        made.lines.rows.append(line);
+        made.rows.append(
+            points_of(next_chain(lines.rows.offsets[r], lines.rows.offsets[r + 1], false)));
       }
-      made.lines.end_group();
-    }
-    const CellRings& polygons = features_.polygons;
-    std::vector<Index> corner_of(sites_.size(), no_index);
-    for (std::size_t i = 0; i < polygons.num_cells(); ++i) {
-      for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
-        const std::uint64_t first = lines.rows.values.size();
-        std::vector<Index> ring =
-            next_chain(first + polygons.rings[r], first + polygons.rings[r + 1], true);
-        if (ring.size() < 3) continue;
-        for (Index& site : ring) {
-          Index& corner = corner_of[site];
-          if (corner == no_index) {
-            corner = static_cast<Index>(made.polygons.points.size());
-            made.polygons.points.push_back(sites_[site]);
-          }
-          site = corner;
-        }
-        made.polygons.append_ring(ring);
-      }
-      made.polygons.end_cell();
+      made.end_group();
     }
     return made;
+  }
+
+  // A polygon that changes is repaired, as parts of it that are narrower than the weld may overlap.
+  CellRings welded_polygons() {
+    CellRings made;
+    const CellRings& polygons = features_.polygons;
+    for (std::size_t i = 0; i < polygons.num_cells(); ++i) {
+      CellRings one;
+      std::vector<std::vector<Point>> all;
+      bool is_changed = false;
+      for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
+        all.push_back(overlay::points_of_ring(polygons, r));
+        is_changed = take_next_ring(r, all.back(), one) || is_changed;
+      }
+      if (one.corners.empty() && map::areas_on_left(all) < 0) one.whole.push_back(0);
+      one.end_cell();
+      append_cell(is_changed ? repaired(one, {.threads = 1}) : one, made);
+    }
+    return made;
+  }
+  // Appends the next ring, whose points were `given`, if something of it is left. Returns true if it
+  // has changed.
+  bool take_next_ring(std::uint64_t number, const std::vector<Point>& given, CellRings& one) {
+    const std::uint64_t first = features_.lines.rows.values.size();
+    const auto& rings = features_.polygons.rings;
+    const std::vector<Index> sites =
+        next_chain(first + rings[number], first + rings[number + 1], true);
+    const std::vector<Point> points = points_of(sites);
+    if (points.size() < 3 || is_tiny(sites) || is_inverted(points, given)) return true;
+    std::vector<Index> ring;
+    for (const Point& p : points) {
+      ring.push_back(static_cast<Index>(one.points.size()));
+      one.points.push_back(p);
+    }
+    one.append_ring(ring);
+    return !std::ranges::equal(points, given);
+  }
+  static void append_cell(const CellRings& one, CellRings& all) {
+    const auto first = static_cast<Index>(all.points.size());
+    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+    if (one.is_whole(0)) all.whole.push_back(static_cast<Index>(all.num_cells()));
+    std::vector<Index> ring;
+    for (std::uint64_t r = 0; r + 1 < one.rings.size(); ++r) {
+      ring.clear();
+      for (const Index corner : one.corners_of(r)) ring.push_back(first + corner);
+      all.append_ring(ring);
+    }
+    all.end_cell();
   }
 
   Geometries& features_;
@@ -198,9 +334,11 @@ class Weld {
   std::vector<std::array<Index, 2>> sides_;  // of lines and rings, one after the other
   std::vector<Index> places_;                // of each site: the site whose place it has
   std::vector<double> near_;                 // by site
+  std::vector<PlaceOnRow> on_rows_;          // sorted by site
+  std::vector<std::int64_t> lengths_;        // of lines, which do not come back, and of rings
   std::vector<SiteOnSide> on_sides_;
   std::size_t num_united_ = 0;
-  Index side_ = 0;        // the next one of welded()
+  Index side_ = 0;        // of the next line or ring
   std::size_t next_ = 0;  // of on_sides_
 };
 

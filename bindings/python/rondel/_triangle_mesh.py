@@ -377,9 +377,9 @@ def triangles(
         simplified with their topology kept; islands and lakes that are nowhere wider vanish. By
         default a quarter of the spacing, or 0 without one.
     weld : float, optional
-        Corners that are nearer than this to another corner or to a side, in radians, are put there
-        first, as where rounded borders leave gaps and overlaps; by default 1e-4 of the spacing, at
-        most the tolerance.
+        Corners that are nearer than this to a corner or a side of another outline, in radians, are
+        put there first, as where rounded borders leave gaps and overlaps; by default 1e-4 of the
+        spacing, at most the tolerance.
     smallest_angle : float, optional
         The smallest angle of triangles in degrees, up to 33; by default 26.5. Triangles near
         places where coasts, borders or lines meet at less than 60 degrees may have smaller ones.

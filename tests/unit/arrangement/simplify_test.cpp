@@ -490,6 +490,90 @@ TEST(simplify, small_rings_keep_three_corners_or_vanish) {
   EXPECT_EQ(kept.cells, (std::vector<std::uint64_t>{0, 1, 1, 1, 2}));
 }
 
+// What is outside of all rings is left: nothing of an island with a lake, and the whole sphere for the
+// land around a lake with an island.
+TEST(simplify, polygons_without_rings_are_nothing_or_everything) {
+  const Line island = circle(10, 20, 0.004, 12);
+  const Line lake = circle(10, 20, 0.002, 9, false);
+  const Line island_in_lake = circle(10, 20, 0.001, 7);
+  Shapes given;
+  given.cells = {{island, lake},
+                 {lake, island},
+                 {island, lake, island_in_lake},
+                 {circle(40, 20, 0.004, 12), circle(40, 20, 0.0039, 12, false),
+                  circle(60, 20, 0.003, 8), circle(60, 20, 0.0029, 8, false)},
+                 {circle(80, 20, 0.004, 12, false), circle(80, 20, 0.0039, 12)},
+                 {circle(100, 20, 0.001, 5, false), circle(120, 20, 0.002, 5, false)}};
+  for (const std::vector<Line>& cell : given.cells) {
+    Shapes one;
+    one.cells = {cell};
+    const CellRings left = simplified(cells_of(one), {.tolerance = 0.02, .drop_small = true});
+    EXPECT_EQ(left.rings.size(), 1U);
+    EXPECT_EQ(left.is_whole(0), areas(cells_of(one))[0] > 6);
+  }
+}
+
+// Shores that are rough, with places beside them.
+Shapes rough_shores(Random& random) {
+  Shapes shores;
+  for (const double lat : {0.0, 0.4}) {
+    Line line;
+    for (int k = 0; k <= 300; ++k) {
+      line.push_back(unit_vector({0.05 * k, lat + random.number(-0.15, 0.15)}));
+    }
+    shores.lines.push_back(line);
+  }
+  for (int k = 0; k < 40; ++k) {
+    shores.lines.push_back({unit_vector({random.number(0, 15), random.number(-0.3, 0.7)})});
+  }
+  return shores;
+}
+
+// Returns how often a new arc is much nearer to a corner than it may be: nearer than the clearance,
+// than given sides are, and than its own ends.
+int num_too_near(const Shapes& given, const Shapes& left, double clearance) {
+  const std::vector<Side> before = sides_of(given);
+  int count = 0;
+  for (const Side& side : sides_of(left)) {
+    if (std::ranges::find(before, side) != before.end()) continue;
+    for (const Line& line : left.lines) {
+      for (const Point& corner : line) {
+        const Long p = to_long(corner);
+        if (corner == side[0] || corner == side[1]) continue;
+        const long double distance = distance_to_side(p, side);
+        const long double to_end = std::min(angle(p, to_long(side[0])), angle(p, to_long(side[1])));
+        constexpr long double much = 4;
+        if (distance >= clearance / much || distance >= to_end / much) continue;
+        long double given_distance = 4;
+        for (const Side& other : before) {
+          if (other[0] == corner || other[1] == corner) continue;
+          given_distance = std::min(given_distance, distance_to_side(p, other));
+        }
+        if (distance < given_distance / much) ++count;
+      }
+    }
+  }
+  return count;
+}
+
+TEST(simplify, arcs_keep_away_from_other_corners) {
+  Random random(11);
+  int num_without = 0;
+  constexpr double tolerance = 0.004;  // 0.23 degrees
+  for (int run = 0; run < 4; ++run) {
+    const Shapes given = rough_shores(random);
+    const auto left_with = [&](double clearance) {
+      return simplified_shapes(given, {.tolerance = tolerance, .clearance = clearance});
+    };
+    for (const double clearance : {0.1, 0.5}) {
+      EXPECT_EQ(num_too_near(given, left_with(clearance), clearance * tolerance), 0);
+      num_without += num_too_near(given, left_with(0), clearance * tolerance);
+    }
+    EXPECT_LT(left_with(0.5).lines[0].size(), given.lines[0].size() / 3);
+  }
+  EXPECT_GT(num_without, 0);
+}
+
 TEST(simplify, a_shared_border_is_simplified_once_and_a_boundary_may_stay) {
   Random random(4);
   const Shapes given = coverage(random, 3, 0.1);
@@ -550,6 +634,9 @@ TEST(simplify, what_is_not_as_described_is_refused) {
   for (const double tolerance :
        {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
     EXPECT_THROW((void)simplified(cells, {.tolerance = tolerance}), InvalidInput);
+  }
+  for (const double clearance : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW((void)simplified(cells, {.clearance = clearance}), InvalidInput);
   }
   cells.points[3] = {1, 1, 1};
   EXPECT_EQ(thrown_index([&] { return simplified(cells, {}); }), 3U);

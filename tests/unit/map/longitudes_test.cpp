@@ -40,6 +40,28 @@ TEST(longitudes, of_results_begin_where_those_given_do) {
   }
 }
 
+// The meridian of the ends has the longitude that the input has.
+TEST(longitudes, of_one_end_of_the_turn_stay_there) {
+  struct Case {
+    LongitudeExtent given;
+    double lon_deg;  // from lonlats()
+    double expected;
+  };
+  for (const auto& [given, lon_deg, expected] : std::vector<Case>{{{-180, -170}, 180, -180},
+                                                                  {{-180, 179.9}, 180, -180},
+                                                                  {{-180, 180}, 180, 180},
+                                                                  {{170, 180}, 180, 180},
+                                                                  {{350, 360}, 0, 360},
+                                                                  {{1, 360}, 0, 360},
+                                                                  {{1, 360}, -0.5, 359.5},
+                                                                  {{0, 360}, 0, 0},
+                                                                  {{0, 350}, 0, 0}}) {
+    EXPECT_EQ(map::longitude_in_turn(lon_deg, west_of(given)), expected);
+    EXPECT_EQ(west_of({}, given), given.least < 0 || given.greatest <= 180 ? -180 : 0);
+    EXPECT_NEAR(west_of(given), west_of({}, given), 1.1e-5);
+  }
+}
+
 TEST(longitudes, are_moved_by_whole_turns) {
   EXPECT_EQ(map::longitude_in_turn(180, -180), 180);
   EXPECT_EQ(map::longitude_in_turn(-90, -180), -90);

@@ -13,6 +13,7 @@
 #include <set>
 #include <tuple>
 
+#include "inputs/random.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
@@ -243,6 +244,81 @@ TEST(domain_triangles, welded_rings_may_vanish) {
   for (const double bad : {-1.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
     options.weld = bad;
     EXPECT_THROW(triangles({{islands}, {sea}, {}}, options), InvalidInput);
+  }
+}
+
+// An island with a lake vanishes with it, as coast and as a part of the area.
+TEST(domain_triangles, small_islands_with_lakes_vanish) {
+  const Geometries sea = polygon({box(0, 0, 10, 8)});
+  Ring lake = box(4.05, 4.05, 4.1, 4.1);
+  std::ranges::reverse(lake);
+  const Geometries island = polygon({box(4, 4, 4.2, 4.2), lake});
+  const Geometries beside =
+      polygon({box(20, 4, 20.2, 4.2), {{20.05, 4.05}, {20.05, 4.1}, {20.1, 4.1}, {20.1, 4.05}}});
+  TrianglesOptions options = spaced(2);
+  options.tolerance.reset();
+  const double area = area_of(triangles({{}, {sea}, {}}, options));
+  EXPECT_EQ(area_of(triangles({{island}, {sea}, {}}, options)), area);
+  EXPECT_EQ(area_of(triangles({{}, {sea, beside}, {}}, options)), area);
+  EXPECT_NEAR(area_of(triangles({{island}, {}, {}}, options)), whole_sphere, 1e-11);
+}
+
+// A weld does not turn a small island inside out, whatever its shape.
+TEST(domain_triangles, small_islands_are_not_turned_inside_out) {
+  const Geometries sea = polygon({box(-9, -8, 9, 8)});
+  inputs::Random random(5);
+  TrianglesOptions options = spaced(4);
+  options.tolerance.reset();
+  const std::size_t expected = triangles({{}, {sea}, {}}, options).mesh.triangles.size();
+  const double weld_deg = 1e-4 * 4;
+  for (int run = 0; run < 300; ++run) {
+    const int size = 4 + run % 7;
+    Ring rock;
+    for (int k = 0; k < size; ++k) {
+      const double angle = 2 * std::numbers::pi * k / size;
+      const double radius = weld_deg * (0.5 + 2.5 * random.unit());
+      rock.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    const Geometries island = polygon({rock});
+    EXPECT_EQ(triangles({{island}, {sea}, {}}, options).mesh.triangles.size(), expected) << run;
+    EXPECT_EQ(triangles({{}, {sea, island}, {}}, options).mesh.triangles.size(), expected) << run;
+  }
+}
+
+// Strips that overlap are one land, which is wide.
+TEST(domain_triangles, overlapping_strips_are_united_before_small_rings_vanish) {
+  const Geometries sea = polygon({box(0, 0, 12, 8)});
+  std::vector<Geometries> strips;
+  for (int k = 0; k < 25; ++k) {
+    const double more = k % 2 == 0 ? 0 : 0.1;
+    strips.push_back(polygon({box(2 + 0.3 * k, 2 - more, 2.4 + 0.3 * k, 6 + more)}));
+  }
+  TrianglesOptions options = spaced(2);
+  options.tolerance.reset();
+  const double land = area_of(polygon({box(2, 2, 9.6, 6)}));
+  EXPECT_NEAR(area_of(triangles({strips, {sea}, {}}, options)), area_of(sea) - land, 0.2 * land);
+  EXPECT_NEAR(area_of(triangles({{}, strips, {}}, options)), land, 0.2 * land);
+}
+
+// A strait of 0.3 degrees stays as wide, although the tolerance is 0.5 degrees.
+TEST(domain_triangles, straits_stay_open_and_wide) {
+  const Geometries sea = polygon({box(-6, -6, 6, 6)});
+  for (const double south : {0.3003, 0.3006, 0.35}) {
+    const Geometries land = polygon({{{-7, -7},
+                                      {7, -7},
+                                      {7, -3},
+                                      {2.2, -3},
+                                      {2, 0.3},
+                                      {0, 0},
+                                      {-2, 0.3},
+                                      {-2.2, -3},
+                                      {-7, -3}}});
+    const Geometries island = polygon({{{0, south}, {1.5, 2}, {-1.5, 2}}});
+    TrianglesOptions options = spaced(2);
+    options.tolerance.reset();
+    const DomainTriangles made = triangles({{land, island}, {sea}, {}}, options);
+    EXPECT_GT(shortest_edge(made), 0.25);
+    EXPECT_TRUE(mesh::pinched_nodes(mesh::triangle_mesh(made)).empty());
   }
 }
 
