@@ -43,13 +43,14 @@ bool is_of_storage(std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Returns the texts that still hold for values at other points.
+// Returns the texts that still hold for values at other points; they may be empty, as WRF's `stagger`.
 std::vector<std::pair<std::string, std::string>> kept_attributes(
     std::span<const io::NetcdfAttribute> attributes) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
     if (is_attribute_of_places(attribute.name) || is_of_storage(attribute.name)) continue;
-    if (!attribute.text.empty()) kept.emplace_back(attribute.name, attribute.text);
+    const bool is_text = attribute.type == io::NetcdfType::text;
+    if (is_text) kept.emplace_back(attribute.name, attribute.text);
   }
   return kept;
 }

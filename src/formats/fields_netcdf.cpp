@@ -316,7 +316,8 @@ class NetcdfSink : public FieldSink {
   }
 
   // Returns the attributes of an array, in which variables and dimensions have the names that they
-  // get here. Those that name others, as statistics of a field name the field's, are left out.
+  // get here. Those that name others are left out. Names in attributes are those of variables of the
+  // set, so statistics of fields come without the names of fields.
   std::vector<io::NetcdfAttribute> with_own_names(const FieldArray& array) {
     const auto name_here = [&](const std::string& name) {
       const auto known = own_names_.find(name);

@@ -22,7 +22,7 @@ void add_history(const std::string& line, FieldSet& fields) {
   if (line.empty()) return;
   for (auto& [name, text] : fields.attributes) {
     if (name != "history") continue;
-    text.insert(0, line + "\n");
+    text.insert(0, text.empty() ? line : line + "\n");
     return;
   }
   fields.attributes.emplace_back("history", line);
@@ -47,8 +47,10 @@ bool is_of_flags(std::string_view attribute) {
 }
 
 bool has_flags(const FieldArray& array) {
-  return std::ranges::any_of(array.attributes,
-                             [](const auto& attribute) { return is_of_flags(attribute.first); }) ||
+  const auto is_text_of_flags = [](const auto& attribute) {
+    return is_of_flags(attribute.first) && !attribute.second.empty();
+  };
+  return std::ranges::any_of(array.attributes, is_text_of_flags) ||
          std::ranges::any_of(array.numbers, is_of_flags, &NumericAttribute::name);
 }
 

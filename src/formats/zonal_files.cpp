@@ -23,6 +23,7 @@
 #include "formats/regrid_side.h"
 #include "io/bad_value.h"
 #include "io/number.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/names.h"
@@ -92,8 +93,9 @@ bool has_values_of_cells(ZonalOperation operation) {
          operation == ZonalOperation::majority || operation == ZonalOperation::minority;
 }
 
-// Returns the square of a unit in UDUNITS's notation.
+// Returns the square of a unit in UDUNITS's notation. An empty text stands for none.
 std::string squared(const std::string& units) {
+  if (units.empty()) return units;
   const bool is_word = std::ranges::all_of(
       units, [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); });
   return is_word ? units + '2' : '(' + units + ")2";
@@ -128,9 +130,28 @@ FieldArray array_of_statistic(const FieldArray& array, const ZonalStatistic& sta
   if (known == made.attributes.end()) {
     made.attributes.emplace_back("cell_methods", method);
   } else {
-    known->second += ' ' + method;
+    known->second += (known->second.empty() ? "" : " ") + method;
   }
   return made;
+}
+
+// Removes the names of fields from attributes such as `coordinates`: no variable of the output is one
+// of these fields, also where a statistic or the mapping of a grid has the name of one.
+void leave_out_names_of(std::span<const FieldArray> fields, FieldSet& written) {
+  const auto name_of_kept = [&](const std::string& name) {
+    return std::ranges::count(fields, name, &FieldArray::name) == 0 ? name : std::string();
+  };
+  for (std::vector<FieldArray>* const arrays : {&written.arrays, &written.axes, &written.others}) {
+    for (FieldArray& array : *arrays) {
+      std::erase_if(array.attributes, [&](auto& attribute) {
+        auto& [name, text] = attribute;
+        // The attribute `compress` names dimensions.
+        if (!is_attribute_of_names(name) || name == "compress") return false;
+        text = with_names(name, text, name_of_kept);
+        return text.empty();
+      });
+    }
+  }
 }
 
 class ZonalJob {
@@ -161,8 +182,8 @@ class ZonalJob {
         arrays.push_back(array_of_statistic(array, statistic));
       }
     }
-    const FieldSet written =
-        fields_at_targets(in, std::move(arrays), source_, target_, options_.history);
+    FieldSet written = fields_at_targets(in, std::move(arrays), source_, target_, options_.history);
+    leave_out_names_of(in.arrays, written);
     const WeightSide side = target_.description(is_netcdf_file(out), execution_);
     RegridOutput output(out, written, side, options_.netcdf, execution_);
     for (std::size_t a = 0; a < in.arrays.size(); ++a) {

@@ -283,6 +283,39 @@ def test_files_have_the_same_numbers(data, tmp_path):
             assert "cell_methods" not in out.t_count.attrs
 
 
+@pytest.mark.parametrize("target", ["grid:60", "healpix:1"])
+def test_attributes_name_no_field_in_place_of_a_statistic(data, tmp_path, target):
+    """Names of fields may be those of statistics, and of the mapping of the target's grid."""
+    pytest.importorskip("netCDF4")
+    made = data.to_dataset()
+    made.lat.attrs["units"], made.lon.attrs["units"] = "degrees_north", "degrees_east"
+    made["t_max"], made["crs"] = made.t.copy(), made.t.copy()
+    made["b"], made["label"] = (("time",), np.ones(made.time.size)), ((), 2.0)
+    made["time_bnds"] = (("time", "nv"), np.zeros((made.time.size, 2)))
+    made.t.attrs.update(ancillary_variables="t_max crs b", units="")
+    made.time.attrs.update(bounds="time_bnds", formula_terms="b: b ps: crs")
+    made["time_bnds"].attrs["ancillary_variables"] = "crs"
+    for name in made.data_vars:
+        made[name].encoding["coordinates"] = "label t_max crs" if name == "t" else None
+    made.to_netcdf(tmp_path / "in.nc")
+    out = tmp_path / "out.nc"
+    rondel.regrid_file(tmp_path / "in.nc", target, out, statistics=["max", "variance"])
+    with xarray.open_dataset(out, decode_coords=False, decode_times=False) as file:
+        places = "lon lat " if target == "healpix:1" else ""
+        for name in ("t_max", "t_variance"):
+            assert file[name].attrs["ancillary_variables"] == "b"
+            assert file[name].attrs["coordinates"] == places + "label"
+            assert file[name].attrs["units"] == ""
+        assert file["time"].attrs["bounds"] == "time_bnds"
+        assert "formula_terms" not in file["time"].attrs
+        assert "ancillary_variables" not in file["time_bnds"].attrs
+        assert {"t_max_max", "crs_max"} <= {*file.data_vars}
+    rondel.regrid_file(tmp_path / "in.nc", target, out)
+    with xarray.open_dataset(out, decode_coords=False, decode_times=False) as file:
+        assert file.t.attrs["ancillary_variables"] == "t_max crs b"
+        assert file["time"].attrs["formula_terms"] == "b: b ps: crs"
+
+
 @pytest.mark.filterwarnings("ignore:left out")
 def test_wrong_calls_are_refused(data):
     with pytest.raises(ValueError, match="'avg' is no statistic"):
