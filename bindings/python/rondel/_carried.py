@@ -288,7 +288,8 @@ def _with_values_that_are_there(values: Any, coincident: IntArray) -> Any:
 
 def _has_flags(array: xarray.DataArray) -> bool:
     """Whether the numbers stand for categories, by CF (section 3.5)."""
-    return "flag_values" in array.attrs or "flag_meanings" in array.attrs
+    names = ("flag_values", "flag_masks", "flag_meanings")
+    return any(str(array.attrs.get(name, "")) for name in names)
 
 
 def _is_field(array: xarray.DataArray, source: Places) -> bool:

@@ -44,7 +44,7 @@ def without_mask(grid: Any, what: str) -> Any:
 def regrid(
     data: Any,
     target: Any,
-    method: FieldMethod = "conservative",
+    method: FieldMethod | None = None,
     *,
     lon: Hashable | None = None,
     lat: Hashable | None = None,
@@ -73,13 +73,14 @@ def regrid(
     target : str, Dataset, DataArray, dict, tuple or CellSet
         The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it.
     method : str, optional
-        'conservative' (default) and 'conservative_2nd': means over cells, divided by the covered
-        area of a target, as those of 'conservative_normed' and 'conservative_2nd_normed' of a
-        `Regridder`; 'nearest', 'linear', 'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear':
-        between the centers; 'native': in the cells of the mesh of `data` itself, as a `Regridder`
-        does it. Hyphens, as of the command, are underscores. With conservative methods, arrays
-        that have the attribute `flag_values` or `flag_meanings` get the value that the largest part
-        of a target has, as 'largest_share' asks for.
+        'conservative' and 'conservative_2nd': means over cells, divided by the covered area of a
+        target, as those of 'conservative_normed' and 'conservative_2nd_normed' of a `Regridder`;
+        'largest_share': the value that the largest part of a target has; 'nearest', 'linear',
+        'laplace', 'sibson', 'hermite', 'cubic' and 'bilinear': between the centers; 'native': in
+        the cells of the mesh of `data` itself, as a `Regridder` does it. Hyphens, as of the
+        command, are underscores. By default arrays with the attribute `flag_values`, `flag_masks`
+        or `flag_meanings` get 'largest_share', and all others 'conservative', as in `regrid_file`
+        and the command; a method that is named is that of all arrays.
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
     max_missing : float, optional
@@ -126,7 +127,8 @@ def regrid(
 
     """
     require_share(max_missing, "max_missing", skipna=True)
-    method = cast("FieldMethod", as_method(method))
+    is_by_kind = method is None
+    method = cast("FieldMethod", as_method("conservative" if is_by_kind else method))
     if method not in get_args(FieldMethod):
         names = ", ".join(map(repr, get_args(FieldMethod)))
         raise ValueError(f"method must be one of {names}, not {method!r}")
@@ -153,5 +155,5 @@ def regrid(
         na_thres=max_missing,
         output_chunks=output_chunks,
         vectors=vectors,
-        how="largest_share" if method == "largest_share" else "by_kind" if is_of_cells else "sum",
+        how="by_kind" if is_by_kind else "largest_share" if method == "largest_share" else "sum",
     )

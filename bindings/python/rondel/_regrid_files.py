@@ -120,8 +120,9 @@ def regrid_file(
         the largest share of the area), 'nearest', 'linear', 'laplace', 'sibson', 'hermite',
         'cubic', 'bilinear' on a grid along axes, or 'native' in the cells of the mesh of the
         fields, at its nodes or its faces (`native_weights`). Hyphens, as of the command, are
-        underscores. By default fields with the attribute `flag_values` or `flag_meanings` get
-        'largest_share', and all others 'conservative'.
+        underscores. By default fields with the attribute `flag_values`, `flag_masks` or
+        `flag_meanings` get 'largest_share', and all others 'conservative'; a method that is named
+        is that of all fields.
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.

@@ -348,7 +348,7 @@ class Regridder(Described):
             weights otherwise; 1e-9 more is the same.
         how : {'sum', 'largest_share', 'by_kind'}, optional
             The weighted sum (default); the value that the largest part of a target has, for
-            categories; or the latter for arrays with the attribute `flag_values` or
+            categories; or the latter for arrays with the attribute `flag_values`, `flag_masks` or
             `flag_meanings`, and sums for the others.
         output_chunks : int, tuple, dict or str, optional
             The lengths of the blocks along the dimensions of the target, for arrays of Dask: one

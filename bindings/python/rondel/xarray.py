@@ -156,7 +156,7 @@ class RondelAccessor:
                 warn_caller(f"weights are given, so these change nothing: {', '.join(idle)}")
         return carried(self._data, weights, source, wanted, skipna=skipna, max_missing=max_missing)
 
-    def regrid(self, target: Any, method: FieldMethod = "conservative", **options: Any) -> Any:
+    def regrid(self, target: Any, method: FieldMethod | None = None, **options: Any) -> Any:
         """Brings the data to another grid.
 
         Parameters

@@ -591,6 +591,46 @@ def test_attributes_that_are_numbers_are_those_of_data(made, tmp_path, end):
                 assert side.crs.attrs[name] == number
 
 
+@pytest.mark.parametrize("end", ["nc", "nc4"])
+def test_texts_may_be_empty(made, tmp_path, end):
+    """As WRF's `stagger`, which is empty for what is in the middle of its cells."""
+    _, data = made
+    empty = {"stagger": "", "units": "", "flag_meanings": "", "cell_methods": ""}
+    data.warm.attrs = dict(empty)
+    data.attrs = {"title": "", "history": ""}
+    data.to_netcdf(tmp_path / "in.nc")
+    out = tmp_path / f"out.{end}"
+    rondel.regrid_file(tmp_path / "in.nc", "grid:30", out, history="rondel regrid")
+    found = rondel.regrid(data, "grid:30")
+    with xarray.open_dataset(out) as file:
+        assert file.attrs["title"] == ""
+        assert file.attrs["history"] == "rondel regrid"
+        for side in (file, found):
+            assert {name: side.warm.attrs[name] for name in empty} == empty
+            assert side.warm.max() > data.warm.max() - 5
+        # An empty list of meanings is none.
+        np.testing.assert_allclose(file.warm, found.warm, rtol=1e-13)
+        assert not np.isin(found.warm, data.warm).all()
+
+
+@pytest.mark.parametrize("flags", ["flag_values", "flag_masks", "flag_meanings"])
+def test_a_method_that_is_named_is_that_of_flags_as_well(made, tmp_path, flags):
+    """The command, files and data have one rule."""
+    _, data = made
+    kind = (np.arange(18)[:, None] + np.arange(36)) % 2
+    attrs = {flags: "low high" if flags == "flag_meanings" else np.array([0, 1], np.int8)}
+    data = data.assign(kind=(("lat", "lon"), kind.astype(float), attrs))[["kind"]]
+    data.to_netcdf(tmp_path / "in.nc")
+    for method in (None, "conservative", "conservative-2nd", "largest-share", "linear"):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:25x17", tmp_path / "out.nc", method=method)
+        options = () if method is None else (method,)
+        found = rondel.regrid(data, "grid:25x17", *options).kind
+        np.testing.assert_array_equal(found, data.rondel.regrid("grid:25x17", *options).kind)
+        with xarray.open_dataset(tmp_path / "out.nc") as file:
+            np.testing.assert_allclose(found, file.kind, atol=1e-12)
+        assert np.isin(found, [0, 1]).all() == (method in (None, "largest-share")), method
+
+
 def test_attributes_of_types_that_classic_files_lack(made, tmp_path):
     """Types that netCDF-4 alone has are kept there, and become larger ones of classic files."""
     netcdf = pytest.importorskip("netCDF4")
