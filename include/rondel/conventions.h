@@ -278,10 +278,13 @@ RONDEL_API bool is_name_of_time(std::string_view dimension);
 ///    either order. The lines have the order of the coordinates, even if bounds are given in reverse.
 /// 2. Longitudes may jump by multiples of 360 degrees; unless they ascend or descend as they are,
 ///    each is at most 180 degrees from the one before it. If the last longitude is the first one
-///    again, each of the two gets half of the cell.
+///    again, each of the two gets half of the cell. Of a single cell, the coordinate says from which
+///    bound to which one it goes east, unless the bounds ascend by half a turn or less.
 /// 3. Lines that go around the globe up to rounding are closed. Without bounds the first and the
 ///    last cell extend as far beyond their coordinate as before it, or to the pole if that is less
-///    than a cell away.
+///    than a cell away. If the gap between the last and the first longitude is no wider than the
+///    widest step, they end half way across it; with a step of more than half a turn only if they
+///    would overlap.
 ///
 /// \param values  the coordinates, in degrees
 /// \param bounds  in degrees, or empty

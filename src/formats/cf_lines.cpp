@@ -27,6 +27,13 @@ namespace {
 // width.
 constexpr double rounding_share = 1e-3;
 
+// Returns the largest distance, in degrees, of a coordinate from the middle of its cell. Rounding to
+// single precision may add to it.
+double most_apart(double width) {
+  constexpr double rounding = 1e-4;
+  return 1.5 * width + rounding;
+}
+
 // The sides of a cell along an axis, in degrees.
 struct CellSides {
   double low;
@@ -119,6 +126,27 @@ std::vector<double> halves(const std::vector<double>& values) {
   return lines;
 }
 
+// Puts the line between the last and the first cell of longitudes that go around the globe half way
+// between their coordinates. They do if the gap is no wider than their widest step, unless this is more
+// than half a turn and leaves room for the gap. Where the gap is as wide as the cells at both ends reach
+// beyond their coordinates, as with even steps, close_circle() does it.
+void meet_in_gap(std::vector<double>& lines, const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  const double first_step = values[1] - values[0];
+  const double last_step = values[n - 1] - values[n - 2];
+  double widest = 0;
+  for (std::size_t i = 1; i < n; ++i)
+    widest = std::max(widest, std::abs(values[i] - values[i - 1]));
+  const double rounding = rounding_share * std::min(std::abs(first_step), std::abs(last_step));
+  const double gap = 360 - std::abs(values[n - 1] - values[0]);
+  if (gap <= rounding || gap > widest + rounding) return;
+  const double beyond = std::abs(first_step + last_step) / 2;
+  if (std::abs(beyond - gap) <= rounding || (widest > 180 && beyond < gap)) return;
+  const double sign = first_step > 0 ? 1 : -1;
+  lines.front() = values[0] - sign * gap / 2;
+  lines.back() = lines.front() + sign * 360;
+}
+
 // Closes a grid around the globe: removes a gap that comes from rounding, and if the cells at both
 // ends are the same one, gives each half of it.
 void close_circle(std::vector<double>& lines, double first, double last) {
@@ -161,13 +189,29 @@ std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_l
   }
   for (CellSides& cell : cells) {
     const double width = cell.high - cell.low;
-    const bool is_swapped = is_longitude && num_forward != 0 ? num_forward < 0
-                            : is_longitude                   ? width < 0 && width >= -180
-                                                             : width < 0;
+    // Whole turns go from the lower number to the higher one.
+    const bool is_whole = std::remainder(width, 360) == 0;
+    const bool is_swapped = is_longitude && num_forward != 0
+                                ? num_forward < 0
+                                : width < 0 && (!is_longitude || width >= -180 || is_whole);
     if (is_swapped) std::swap(cell.low, cell.high);
     if (is_longitude && cell.high < cell.low) cell.high += 360;
   }
   return cells;
+}
+
+// Turns the only cell of longitudes around, from a to b into from b to a, if its coordinate says so. A
+// pair of bounds may mean both if it decreases or is wider than half a turn. A coordinate that is in
+// neither by much is that of the cell whose middle is nearer.
+void turn_to_coordinate(CellSides& cell, std::span<const double> pair, double value) {
+  const double as_given = pair[1] - pair[0];
+  const double width = cell.high - cell.low;
+  if ((as_given > 0 && as_given <= 180) || !(width > 0 && width < 360)) return;
+  const double distance = std::abs(std::remainder(value - (cell.low + cell.high) / 2, 360));
+  if (distance <= width / 2 * (1 + rounding_share)) return;
+  // The middles of both are half a turn apart.
+  if (distance <= 90 && distance <= most_apart(width)) return;
+  cell = {cell.high, cell.low + 360};
 }
 
 // Throws InvalidInput with the bounds of cells k and i, which overlap.
@@ -235,12 +279,11 @@ std::vector<double> lines_as_given(std::span<const double> bounds, std::span<con
 // Throws InvalidInput if a coordinate is farther from its cell than the cell is wide.
 void require_near_cells(std::span<const double> values, std::span<const double> lines,
                         const std::string& name) {
-  constexpr double rounding = 1e-4;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double away = values[i] - (lines[i] + lines[i + 1]) / 2;
     const double width = std::abs(lines[i + 1] - lines[i]);
     const double distance = std::abs(name == "longitude" ? std::remainder(away, 360) : away);
-    if (distance <= 1.5 * width + rounding) continue;
+    if (distance <= most_apart(width)) continue;
     throw InvalidInput(name + " " + system::shortest_text(values[i]) + " is far from its cell, " +
                            system::shortest_text(lines[i]) + " to " +
                            system::shortest_text(lines[i + 1]),
@@ -304,9 +347,13 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
                              std::to_string(bounds.size()) + " values",
                          0);
     }
-    const bool are_lines = bounds.size() == n + 1 && n > 1;
-    lines = are_lines ? lines_as_given(bounds, unrolled, is_longitude)
-                      : joined(sides_of_bounds(bounds, is_longitude), is_longitude);
+    if (bounds.size() == n + 1 && n > 1) {
+      lines = lines_as_given(bounds, unrolled, is_longitude);
+    } else {
+      std::vector<CellSides> cells = sides_of_bounds(bounds, is_longitude);
+      if (is_longitude && n == 1) turn_to_coordinate(cells.front(), bounds, values[0]);
+      lines = joined(cells, is_longitude);
+    }
     require_near_cells(values, lines, name);
   } else {
     if (n == 0) throw InvalidInput("there are no " + name + "s", 0);
@@ -317,7 +364,11 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
     }
     if (is_longitude) require_one_turn_of_axis(values, unrolled, name);
     lines = halves(unrolled);
-    if (!is_longitude) end_at_poles(lines);
+    if (is_longitude) {
+      meet_in_gap(lines, unrolled);
+    } else {
+      end_at_poles(lines);
+    }
   }
   if (!is_longitude) {
     require_latitudes(values, name);

@@ -136,6 +136,54 @@ TEST(axes, of_narrow_cells_go_across_the_first_meridian) {
                {0.5, 0.25, 0, -0.25}, true));
 }
 
+// Both ways from one bound to the other are possible, so the coordinate says which one it is.
+TEST(axes, of_one_cell_go_where_its_longitude_is) {
+  const auto expect = [](double value, const Doubles& bounds, const Doubles& lines) {
+    for (const double turn : {-360, 0, 360}) {
+      const Doubles found = axis_lines(Doubles{value + turn}, bounds, true);
+      EXPECT_TRUE(are_same(found, lines, true)) << value << " has " << text(found);
+    }
+  };
+  expect(180, {80, 280}, {80, 280});
+  expect(180, {280, 80}, {80, 280});
+  expect(120, {280, 80}, {80, 280});
+  expect(0, {280, 80}, {280, 440});
+  expect(0, {80, 280}, {280, 440});
+  expect(180, {0, 360}, {0, 360});
+  expect(180, {360, 0}, {0, 360});
+  expect(0, {180, -180}, {-180, 180});
+  expect(180, {360, 0.5}, {0.5, 360});
+  expect(0, {350, 10}, {350, 370});
+  expect(180, {350, 10}, {10, 350});
+  expect(90, {100, 80}, {80, 100});
+  expect(270, {100, 80}, {100, 440});
+  // A coordinate at or beside a side does not turn the cell around.
+  expect(80, {80, 280}, {80, 280});
+  expect(280, {80, 280}, {80, 280});
+  expect(12, {350, 10}, {350, 370});
+  expect(100.00005, {100.000005, 99.999995}, {99.999995, 100.000005});
+  expect(12, {0, 10}, {0, 10});
+  EXPECT_THROW((void)axis_lines(Doubles{270}, Doubles{80, 100}, true), InvalidInput);
+}
+
+TEST(axes, that_go_around_unevenly_meet_in_the_gap) {
+  const auto lines = [](const Doubles& values) { return axis_lines(values, {}, true); };
+  EXPECT_EQ(lines({0, 60, 120, 180, 240, 250, 260, 320}),
+            (Doubles{-20, 30, 90, 150, 210, 245, 255, 290, 340}));
+  EXPECT_EQ(lines({320, 260, 250, 240, 180, 120, 60, 0}),
+            (Doubles{340, 290, 255, 245, 210, 150, 90, 30, -20}));
+  EXPECT_EQ(lines({0, 10, 20, 80, 140, 200, 260, 320, 330}),
+            (Doubles{-15, 5, 15, 50, 110, 170, 230, 290, 325, 345}));
+  EXPECT_EQ(lines({0, 100, 200, 300}), (Doubles{-30, 50, 150, 250, 330}));
+  EXPECT_EQ(lines({0, 180}), (Doubles{-90, 90, 270}));
+  EXPECT_EQ(lines({0, 200}), (Doubles{-80, 100, 280}));
+  EXPECT_EQ(lines({0, 90}), (Doubles{-45, 45, 135}));
+  // A gap that is wider than all steps is left.
+  EXPECT_EQ(lines({0, 10, 20}), (Doubles{-5, 5, 15, 25}));
+  EXPECT_EQ(lines({0, 100, 190, 280}), (Doubles{-40, 50, 145, 235, 320}));
+  EXPECT_EQ(lines({0, 90, 180, 250}), (Doubles{-45, 45, 135, 215, 285}));
+}
+
 // A coordinate of single precision may be beside a cell that is narrower than its rounding.
 TEST(axes, may_be_beside_their_cells_by_rounding) {
   const Doubles bounds = {99.999995, 100.000005, 100.000005, 100.000015};
@@ -164,8 +212,16 @@ TEST(axes, without_bounds_have_lines_halfway) {
       // Cells at a pole end there, if the pole is less than a cell away.
       if (right[0] + 90 < right[1] - right[0]) right[0] = -90;
       if (90 - right[n] < right[n] - right[n - 1]) right[n] = 90;
-    } else if (right[n] - right[0] > 360) {
-      continue;
+    } else {
+      double widest = 0;
+      for (std::size_t i = 1; i < n; ++i) widest = std::max(widest, values[i] - values[i - 1]);
+      const double gap = 360 - (values[n - 1] - values[0]);
+      if (gap <= 0) continue;
+      // Where a step is as wide as the gap, the cells at both ends meet half way across it.
+      if (gap <= widest && (widest <= 180 || right[n] - right[0] > 360)) {
+        right[0] = values[0] - gap / 2;
+        right[n] = right[0] + 360;
+      }
     }
     const auto expect = [&](const Doubles& given, const Doubles& lines) {
       const Doubles found = axis_lines(given, {}, is_longitude);
