@@ -283,7 +283,8 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .invalid = options.invalid,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
-  if (can_read_polygons(file))
+  // Files of GDAL without polygons are refused by what they have.
+  if (can_read_polygons(file) || formats::is_read_by_gdal(file))
     return of(read_polygons(file, rules, execution), options.sides, execution);
   if (const formats::GridOfFile grid = formats::grid_of_file(file, true); !grid.name.empty()) {
     try {

@@ -80,6 +80,7 @@ void load_reading(system::SymbolLoader& from, Gdal& gdal) {
   from.get(gdal.x, "OGR_G_GetX");
   from.get(gdal.y, "OGR_G_GetY");
   from.get(gdal.is_geographic, "OSRIsGeographic");
+  from.get(gdal.is_local, "OSRIsLocal");
   from.get(gdal.angular_units, "OSRGetAngularUnits");
   from.get(gdal.prime_meridian, "OSRGetPrimeMeridian");
   from.get(gdal.reference_name, "OSRGetName");

@@ -83,6 +83,7 @@ struct Gdal {
   double (*x)(GdalHandle, int);
   double (*y)(GdalHandle, int);
   int (*is_geographic)(GdalHandle);
+  int (*is_local)(GdalHandle);
   double (*angular_units)(GdalHandle, char**);
   double (*prime_meridian)(GdalHandle, char**);
   const char* (*reference_name)(GdalHandle);

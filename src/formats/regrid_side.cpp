@@ -17,6 +17,7 @@
 #include "formats/field_cells.h"
 #include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
+#include "formats/sites_gdal.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_groups.h"
@@ -104,7 +105,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
     return;
   }
   if (!can_read_cells(file)) {
-    if (!can_read_polygons(file)) {
+    if (!can_read_polygons(file) && !is_read_by_gdal(file)) {
       throw FileError(file.path +
                       ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
                       "(.geojson, and by GDAL .gpkg .fgb .shp .parquet)");

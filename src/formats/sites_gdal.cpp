@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/cf_names.h"
 #include "formats/gdal.h"
 #include "io/bad_value.h"
 #include "io/column_text.h"
@@ -178,8 +179,11 @@ void SiteSource::require_degrees(GdalHandle layer) const {
                         std::abs(gdal_.angular_units(reference, nullptr) - degree) < tolerance &&
                         gdal_.prime_meridian(reference, nullptr) == 0;
   if (is_usual) return;
-  const char* const name = gdal_.reference_name(reference);
-  throw io::BadValue("the coordinate system " + io::in_quotes(name == nullptr ? "" : name) +
+  const char* const text = gdal_.reference_name(reference);
+  const std::string name = text == nullptr ? "" : text;
+  // GeoPackage has systems that stand for none, which GDAL writes where none is known.
+  if (gdal_.is_local(reference) != 0 && lower_case(name).starts_with("undefined ")) return;
+  throw io::BadValue("the coordinate system " + io::in_quotes(name) +
                      " is not longitude and latitude in degrees; 'ogr2ogr -t_srs EPSG:4326 "
                      "OUT.gpkg FILE' converts it");
 }

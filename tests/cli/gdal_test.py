@@ -6,12 +6,14 @@
 The library is that of pyogrio's wheel; without it ctest says "Skipped".
 """
 
+import contextlib
 import csv
 import importlib.util
 import json
 import os
 import pathlib
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -380,7 +382,33 @@ class FeaturesOfGdal(Folder):
             done = self.run_tool("remap", f"f.{ending}", "grid:30", "-o", "o.npz")
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             done = self.run_tool("regrid", "t.nc", f"f.{ending}", "-o", "o.csv")
-            self.assertIn("nor netCDF with cells, nor polygons (.geojson, and by GDAL", done.stderr)
+            self.assertRegex(done.stderr, rf'\Arondel: f.{ending}.*: feature 0: type "Point" where a Polygon is needed\n\Z')
+        self.write([], k=[])
+        for ending in self.ENDINGS:
+            done = self.run_tool("regrid", "t.nc", f"f.{ending}", "-o", "o.csv")
+            self.assertEqual((done.returncode, done.stderr), (1, f"rondel: f.{ending}: there are no cells\n"))
+
+    def test_without_a_coordinate_system_are_in_degrees(self):
+        """GeoPackage has three systems that stand for an unknown one."""
+        (self.folder / "t.csv").write_text("lon,lat,t\n0,0,1\n120,0,2\n-120,10,3\n0,90,4\n0,-90,5\n")
+        self.run_tool("interpolate", "t.csv", "--value", "t", "--method", "nearest", "--to", "grid:10", "-o", "t.nc")
+        frame = geopandas.GeoDataFrame({"k": [1]}, geometry=[shapely.box(0, 0, 20, 9)])
+        frame.to_file(self.folder / "f.geojson")
+        self.run_tool("regrid", "t.nc", "f.geojson", "-o", "wanted.csv")
+        for number in (None, -1, 0):
+            frame.to_file(self.folder / "f.gpkg")
+            if number is not None:
+                with contextlib.closing(sqlite3.connect(self.folder / "f.gpkg")) as base:
+                    for table in ("gpkg_contents", "gpkg_geometry_columns"):
+                        base.execute(f"update {table} set srs_id = {number}")
+                    base.commit()
+            done = self.run_tool("regrid", "t.nc", "f.gpkg", "-o", "o.csv")
+            self.assertEqual((done.returncode, done.stderr), (0, ""), number)
+            self.assertEqual((self.folder / "o.csv").read_bytes(), (self.folder / "wanted.csv").read_bytes())
+        frame.set_geometry(frame.scale(5, 5000)).to_file(self.folder / "f.gpkg")
+        done = self.run_tool("regrid", "t.nc", "f.gpkg", "-o", "o.csv")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"\Arondel: f.gpkg.*latitude .* is outside \[-90, 90\]\n\Z")
 
     def test_are_known_to_info(self):
         self.write([shapely.box(0, 0, 9, 9), shapely.LineString([(0, 0), (1, 1)])], k=[1, 2], endings=("gpkg",))

@@ -232,6 +232,9 @@ def in_degrees(geometries: Any, edges: Edges = "lonlat") -> Any:
     crs = getattr(geometries, "crs", None)
     if crs is None or crs.equals(4326, ignore_axis_order=True):
         return geometries
+    if crs.is_engineering and str(crs.name).lower().startswith("undefined "):
+        # GeoPackage has systems that stand for none.
+        return geometries.set_crs(None, allow_override=True)
     from pyproj.exceptions import ProjError
 
     try:

@@ -282,6 +282,26 @@ def test_geographic_crs_are_converted_to_degrees():
     assert rondel.polygons(moon).areas == pytest.approx(plain, rel=1e-9)
 
 
+@pytest.mark.parametrize("kind", ["LOCAL_CS", "GEOGCS"])
+def test_a_crs_of_geopackage_may_stand_for_none(kind):
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    crs = {
+        "LOCAL_CS": 'LOCAL_CS["Undefined Cartesian SRS",UNIT["Meter",1],AXIS["Easting",EAST],'
+        'AXIS["Northing",NORTH]]',
+        "GEOGCS": 'GEOGCS["Undefined geographic SRS",DATUM["unknown",SPHEROID["unknown",6378137,'
+        '298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433],'
+        'AXIS["Latitude",NORTH],AXIS["Longitude",EAST]]',
+    }[kind]
+    box = shapely.box(0, 0, 10, 10)
+    found = geopandas.GeoSeries([box], crs=crs)
+    assert rondel.polygons(found).areas == pytest.approx(rondel.polygons(box).areas, rel=1e-12)
+    parts = rondel.intersection(found, geopandas.GeoSeries([shapely.box(5, 5, 15, 15)]))
+    assert parts.iloc[0].bounds == pytest.approx((5, 5, 10, 10), abs=0.1)
+    with pytest.raises(ValueError, match="cannot be converted"):
+        rondel.polygons(geopandas.GeoSeries([box], crs='LOCAL_CS["Site",UNIT["Meter",1]]'))
+
+
 def test_a_crs_of_geojson_has_to_be_in_degrees():
     mapping = {
         "type": "Polygon",
