@@ -209,7 +209,8 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
       parser, "--edges", cells.edges, named_values<PolygonEdges>(),
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
-  const CLI::Option* const invalid = add_invalid_option(parser, cells.invalid);
+  const CLI::Option* const invalid =
+      add_invalid_option(parser, cells.invalid, "cells and polygons");
   const CLI::Option* const corners = add_corners_option(parser, cells.corners);
   const auto has_polygons = [&options] {
     return can_read_polygons(options.target) || can_read_polygons(options.source);
@@ -217,11 +218,12 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   require_effect(options.common, edges, has_polygons, "without polygons");
   require_effect(
       options.common, invalid,
-      [&options, has_polygons] {
-        return has_polygons() || options.regrid.cells.corners == MissingCorners::made;
+      [&options] {
+        const bool is_source_named = !options.source.empty() && NamedGrid::is_name(options.source);
+        return !is_source_named || !NamedGrid::is_name(options.target);
       },
-      "without polygons or --corners made");
-  for (const CLI::Option* const option : {sides, corners}) {
+      "between grids with names, whose cells are valid");
+  for (const CLI::Option* const option : {sides, invalid, corners}) {
     require_effect(
         options.common, option,
         [&options] {

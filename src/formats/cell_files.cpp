@@ -264,6 +264,17 @@ CellTable formats::cells_in(const io::NetcdfReader& file, const std::string& fil
   return table;
 }
 
+CellSet formats::cells_by_rules(CellTable table, const CellFileOptions& options,
+                                const Execution& execution) {
+  CellSet cells = CellSet::of(std::move(table), options.sides, execution);
+  if (options.invalid == InvalidPolygons::error) return cells;
+  try {
+    return cells.repaired(execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(cells.facts().name + ": " + error.what());
+  }
+}
+
 CellTable read_cells(const FileName& file, MissingCorners corners) {
   const system::ArithmeticScope arithmetic;
   const std::pair<FileName, std::string> part = file_and_variable(file);
@@ -298,13 +309,7 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
       throw FileError(file.path + ": " + error.what());
     }
   }
-  CellSet cells = of(read_cells(file, options.corners), options.sides, execution);
-  if (options.invalid == InvalidPolygons::error) return cells;
-  try {
-    return cells.repaired(execution);
-  } catch (const InvalidInput& error) {
-    throw FileError(cells.facts().name + ": " + error.what());
-  }
+  return formats::cells_by_rules(read_cells(file, options.corners), options, execution);
 }
 
 }  // namespace rondel

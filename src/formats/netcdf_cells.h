@@ -42,6 +42,9 @@ struct MeshContent : CellFacts {
 CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
                    const std::string& part, MissingCorners corners = MissingCorners::error);
 
+// Returns the cells of a table, repaired if the options ask for it. Throws FileError.
+CellSet cells_by_rules(CellTable table, const CellFileOptions& options, const Execution& execution);
+
 // Returns the mesh of the first convention that the file follows. `name` is a variable that is on
 // its cells, or empty. Throws BadValue if there is no variable of this name or no convention fits.
 MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name,

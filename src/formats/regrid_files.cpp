@@ -95,6 +95,8 @@ void require_effects(const RegridFileOptions& options, const FileName& out) {
           "corners have no effect with a method between places");
   require(is_of_cells || options.cells.sides == GridSides::parallels,
           "sides have no effect with a method between places");
+  require(is_of_cells || options.cells.invalid == InvalidPolygons::error,
+          "invalid has no effect with a method between places");
   require(options.method != FieldMethod::largest_share || !has_norm,
           "norm has no effect with the method largest_share");
   require(options.method == FieldMethod::conservative_2nd || !options.is_limited,
@@ -129,9 +131,9 @@ class RegridJob {
         needs_cells_(!options.method || is_conservative(*options.method)),
         names_(formats::wanted_variables(in, options.names)),
         mesh_file_(options.source.value_or(file_and_variable(in).first)),
-        source_(mesh_file_, options.cells, needs_cells_, execution,
+        source_(mesh_file_, "source", options.cells, needs_cells_, execution,
                 options.source ? std::vector<std::string>() : names_),
-        target_(target, options.cells, needs_cells_, execution),
+        target_(target, "target", options.cells, needs_cells_, execution),
         out_(std::move(out)) {
     inputs_.require_other(out_);
     open(in);

@@ -66,9 +66,10 @@ void require_places(const FileName& file) {
 
 }  // namespace
 
-RegridSide::RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
-                       const Execution& execution, const std::vector<std::string>& names)
-    : name_(file.path), file_(file), options_(options) {
+RegridSide::RegridSide(const FileName& file, const char* what, const CellFileOptions& options,
+                       bool has_cells, const Execution& execution,
+                       const std::vector<std::string>& names)
+    : name_(file.path), what_(what), file_(file), options_(options) {
   require_grid_or_file(file);
   const bool is_name = NamedGrid::is_name(file.path);
   const GridOfFile grid = is_name ? GridOfFile{file.path} : grid_of_file(file, has_cells);
@@ -122,21 +123,27 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
       given_lines_ = std::move(table.facts.given_lines);
       return;
     }
-    cells_ = CellSet::of(std::move(table), options_.sides, execution);
+    cells_ = cells_by_rules(std::move(table), options_, execution);
     are_corners_made_ = cells_->facts().are_corners_made;
-    if (are_corners_made_ && options_.invalid == InvalidPolygons::repair) {
-      cells_ = cells_->repaired(execution);
-    }
   }
+  if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
+  take_facts_of_cells();
+}
+
+// Cells without given centers have their centroids, unless they cross themselves.
+void RegridSide::take_facts_of_cells() {
   const CellFacts& facts = cells_->facts();
   shape_ = facts.shape;
   mask_ = facts.mask;
   remarks_ = facts.remarks;
   columns_ = facts.columns;
   given_lines_ = facts.given_lines;
-  places_ = cells_->places();
   if (!facts.axes.lon_deg.empty()) axes_ = facts.axes;
-  if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
+  try {
+    places_ = cells_->places();
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(facts.name + ": " + what_ + ' ' + error.what(), error.index());
+  }
 }
 
 void RegridSide::take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,

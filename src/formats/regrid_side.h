@@ -27,9 +27,10 @@ namespace rondel::formats {
 
 class RegridSide {
  public:
-  // Reads a side: the grid of the first of `names`, if there are any and the file has several. With
-  // `has_cells` false its places are enough, which may be nodes or edges then.
-  RegridSide(const FileName& file, const CellFileOptions& options, bool has_cells,
+  // Reads a side, which messages call `what`, "source" or "target": the grid of the first of `names`, if
+  // there are any and the file has several. With `has_cells` false its places are enough, which may be
+  // nodes or edges then.
+  RegridSide(const FileName& file, const char* what, const CellFileOptions& options, bool has_cells,
              const Execution& execution, const std::vector<std::string>& names = {});
 
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -70,8 +71,10 @@ class RegridSide {
   void take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                  const Execution& execution);
   void make_cells(const Execution& execution);
+  void take_facts_of_cells();
 
   std::string name_;
+  std::string what_;
   FileName file_;
   CellFileOptions options_;
   std::optional<NamedGrid> named_;

@@ -160,10 +160,10 @@ class ZonalJob {
            const Execution& execution)
       : options_(options),
         execution_(execution),
-        source_(options.source.value_or(file_and_variable(in).first), options.cells, true,
+        source_(options.source.value_or(file_and_variable(in).first), "source", options.cells, true,
                 execution,
                 options.source ? std::vector<std::string>() : wanted_variables(in, options.names)),
-        target_(target, options.cells, true, execution),
+        target_(target, "target", options.cells, true, execution),
         fields_(open_fields(in, wanted_variables(in, options.names), source_)) {
     report_.remarks =
         remarks_of(source_, target_, file_and_variable(in).first.path, fields_->fields());

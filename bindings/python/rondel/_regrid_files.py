@@ -135,7 +135,8 @@ def regrid_file(
     sides : {'parallels', 'great_circles'}, optional
         The northern and southern sides of cells of grids, as in `CellSet.lonlat_grid`.
     edges, invalid, corners
-        How polygons, and grids without corners, are read, as in `CellSet.read`. Corners that were
+        How polygons, cells that cross themselves, and grids without corners are read, as in
+        `CellSet.read`; with 'repair' also cells of netCDF are repaired. Corners that were
         made are told by the attribute `source_corners` or `target_corners` of the file.
     overlap : {'error', 'first', 'share', 'each'}, optional
         What becomes of cells of one side that overlap, as in `remap`.

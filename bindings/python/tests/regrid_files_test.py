@@ -301,6 +301,7 @@ def test_points_in_another_order_are_not_those_of_the_grid(made):
         ({"method": "linear", "norm": "destarea"}, "norm has no effect with a method between"),
         ({"method": "linear", "overlap": "each"}, "overlap has no effect with a method between"),
         ({"method": "nearest", "corners": "made"}, "corners have no effect with a method between"),
+        ({"method": "nearest", "invalid": "repair"}, "invalid has no effect with a method between"),
         ({"method": "largest_share", "norm": "destarea"}, "norm has no effect with the method la"),
         ({"statistics": "mean", "tile": 100}, "tiles have no effect with statistics"),
         ({"statistics": "mean", "norm": "destarea"}, "norm has no effect with statistics"),
@@ -938,3 +939,69 @@ def test_methods_may_be_spelled_as_in_the_command(made, tmp_path, method):
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
     found = rondel.regrid(data, "healpix:1", method)
     assert found.identical(rondel.regrid(data, "healpix:1", method.replace("-", "_")))
+
+
+QUADS = np.array(
+    [
+        [(0, 0), (10, 0), (10, 10), (0, 10)],
+        [(10, 0), (20, 10), (20, 0), (10, 10)],
+        [(30, 0), (40, 10), (40, 0), (30, 10)],
+    ],
+    float,
+)
+
+
+def write_quads(path, kind, has_centers):
+    """Three cells with a field, of which the last two cross themselves."""
+    if kind == "ugrid":
+        nodes, corners = QUADS.reshape(-1, 2), np.arange(12).reshape(3, 4)
+        mesh = {
+            "cf_role": "mesh_topology",
+            "topology_dimension": 2,
+            "node_coordinates": "nx ny",
+            "face_node_connectivity": "corners",
+        } | ({"face_coordinates": "fx fy"} if has_centers else {})
+        variables = {
+            "mesh": ((), 0, mesh),
+            "corners": (("face", "four"), corners, {"start_index": 0}),
+            "t": (("face",), [1.0, 2.0, 3.0], {"mesh": "mesh", "location": "face"}),
+        }
+        for k, (name, sense) in enumerate((("x", "degrees_east"), ("y", "degrees_north"))):
+            variables[f"n{name}"] = ("node", nodes[:, k], {"units": sense})
+            if has_centers:
+                variables[f"f{name}"] = ("face", QUADS[..., k].mean(1), {"units": sense})
+    else:
+        variables = {"t": (("grid_size",), [1.0, 2.0, 3.0])}
+        for k, name in enumerate(("lon", "lat")):
+            units = {"units": "degrees"}
+            variables[f"grid_corner_{name}"] = (("grid_size", "four"), QUADS[..., k], units)
+            if has_centers:
+                variables[f"grid_center_{name}"] = ("grid_size", QUADS[..., k].mean(1), units)
+    xarray.Dataset(variables).to_netcdf(path)
+
+
+@pytest.mark.parametrize("has_centers", [False, True])
+@pytest.mark.parametrize("kind", ["ugrid", "scrip"])
+def test_cells_that_cross_themselves_are_named_or_repaired(made, tmp_path, kind, has_centers):
+    bad, out = tmp_path / "bad.nc", tmp_path / "out.nc"
+    write_quads(bad, kind, has_centers)
+    for side, names in (("source", (bad, "grid:5")), ("target", (made[0], bad))):
+        message = rf"bad.nc: {side} cell 1 crosses or overlaps itself at 15\.0"
+        for more in ({}, {"statistics": "mean"}, {"tile": 50}, {"method": "conservative_2nd"}):
+            with pytest.raises(rondel.InvalidInput, match=message):
+                rondel.regrid_file(*names, out, **more)
+            report = rondel.regrid_file(*names, out, invalid="repair", **more)
+            assert any(
+                text.endswith(", and 1 more") and "bad.nc: cell 1 was repaired (it " in text
+                for text in report.remarks
+            )
+    # The values are those of weights between the repaired cells.
+    with pytest.warns(UserWarning, match="cell 1 was repaired"):
+        cells = rondel.CellSet.read(bad, invalid="repair")
+    remap = rondel.remap(cells, "grid:5", norm="fracarea")
+    rondel.regrid_file(bad, "grid:5", out, invalid="repair", max_missing=1)
+    with xarray.open_dataset(out) as file:
+        wanted = remap.weights.apply(np.array([1.0, 2.0, 3.0]))
+        is_there = np.isfinite(file.t.values.ravel())
+        assert is_there.sum() >= 12
+        np.testing.assert_allclose(file.t.values.ravel()[is_there], wanted[is_there], rtol=1e-13)
