@@ -36,11 +36,14 @@ std::string netcdf_name(std::string name) {
 
 namespace {
 
-// Returns a name that programs accept for a variable: without blanks and beginning with a letter.
+// Returns a name that programs accept for a variable: without blanks and beginning with a letter, of
+// ASCII or another script.
 std::string name_of_variable(const Column& column) {
   std::string name = netcdf_name(column.name);
   std::ranges::replace(name, ' ', '_');
-  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  const auto is_letter = [](char c) {
+    return ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || static_cast<unsigned char>(c) >= 0x80;
+  };
   if (!is_letter(name.front())) name.insert(0, "column_");
   return name;
 }

@@ -97,6 +97,10 @@ std::string header_line(const FieldsToWrite& job, char separator) {
   }
   const auto num_others = static_cast<std::ptrdiff_t>(names.size());
   for (const Column& column : job.side.columns) names.push_back(column.name);
+  // The reader of tables must know the places from them.
+  if (num_coordinates > 0) {
+    io::distinguish_from_coordinates(std::span(names).subspan(2));
+  }
   names = free_names(std::move(names));
   std::rotate(names.begin() + num_coordinates, names.begin() + num_others, names.end());
   std::string text;

@@ -70,6 +70,12 @@ struct Coordinate {
   std::vector<std::string_view> usual;
 };
 
+// True if the name is a usual one of the coordinate.
+bool is_usual_name(std::string_view name, const Coordinate& coordinate) {
+  return std::ranges::any_of(coordinate.usual,
+                             [&](auto usual) { return equal_but_for_case(name, usual); });
+}
+
 // Returns the columns of exactly this name.
 std::vector<std::size_t> all_equal_to(const Header& header, std::string_view name) {
   std::vector<std::size_t> equal;
@@ -103,9 +109,7 @@ std::optional<std::size_t> find(const Header& header, const Coordinate& coordina
     if (const auto exact = find_column(header, chosen)) return exact;
   }
   const auto fits = [&](std::string_view name) {
-    if (!chosen.empty()) return equal_but_for_case(name, chosen);
-    return std::ranges::any_of(coordinate.usual,
-                               [&](auto usual) { return equal_but_for_case(name, usual); });
+    return chosen.empty() ? is_usual_name(name, coordinate) : equal_but_for_case(name, chosen);
   };
   for (std::size_t i = 0; i < header.size(); ++i) {
     if (fits(header[i])) fitting.push_back(i);
@@ -188,6 +192,22 @@ bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
 }
 
 }  // namespace
+
+void distinguish_from_coordinates(std::span<std::string> names) {
+  const ReadOptions usual;
+  const CoordinateKinds kinds = usual_coordinates(usual);
+  const auto is_of = [&](const std::string& name, std::span<const Coordinate> coordinates) {
+    return std::ranges::any_of(coordinates,
+                               [&](const Coordinate& c) { return is_usual_name(name, c); });
+  };
+  const bool has_xyz = std::ranges::all_of(kinds.xyz, [&](const Coordinate& c) {
+    return std::ranges::any_of(names,
+                               [&](const std::string& name) { return is_usual_name(name, c); });
+  });
+  for (std::string& name : names) {
+    if (is_of(name, kinds.lonlat) || (has_xyz && is_of(name, kinds.xyz))) name += '_';
+  }
+}
 
 bool is_comment(std::string_view first_field) { return trim(first_field).starts_with('#'); }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,11 @@ struct CoordinateColumns {
 
 // True if the options name columns of coordinates, or the header has those of all coordinates.
 bool has_coordinates(const std::vector<std::string>& header, const ReadOptions& options);
+
+// Gives an underscore to the names of columns, behind `lon` and `lat` in a table that is written, which
+// would be taken for coordinates when it is read: those of longitudes and latitudes in any case of
+// letters, and `x`, `y` and `z` if all three are there.
+void distinguish_from_coordinates(std::span<std::string> names);
 
 // Finds the columns that the options name, or otherwise those with usual names; the order of
 // columns never decides. A radius must be named, since a column of that name may be anything. Names
