@@ -91,8 +91,9 @@ def zonal_statistics(
     ------
     ValueError
         If there is no such statistic, coordinates are not found, no variable of a Dataset is a
-        field, or a polygon is not valid; `InvalidInput` if cells of the data overlap, or zones
-        where `overlap` is 'error'.
+        field, a polygon is not valid, or `include_cols` names a column that the zones do not have,
+        one twice, or one with the name of a statistic's column; `InvalidInput` if cells of the data
+        overlap, or zones where `overlap` is 'error'.
     TypeError
         If an array has no numbers, or `include_cols` is given for zones without columns.
 
@@ -271,6 +272,14 @@ def _with_columns(table: Any, zones: Any, names: str | Iterable[str], number: in
     if not hasattr(zones, "columns"):
         kind = "a file" if isinstance(zones, (str, os.PathLike)) else type(zones).__name__
         raise TypeError(f"include_cols needs a GeoDataFrame of zones, not {kind}")
+    for k, name in enumerate(wanted):
+        if name not in zones.columns:
+            known = ", ".join(map(repr, zones.columns))
+            raise ValueError(f"include_cols: the zones have no column {name!r}, but {known}")
+        if name in wanted[:k]:
+            raise ValueError(f"include_cols has the column {name!r} twice")
+        if name in table.columns:
+            raise ValueError(f"include_cols: {name!r} is the name of a statistic's column, too")
     rows = np.repeat(np.arange(number), len(table) // max(number, 1))
     for k, name in enumerate(wanted):
         table.insert(k, name, zones[name].take(rows).to_numpy())

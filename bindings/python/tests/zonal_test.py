@@ -175,6 +175,16 @@ def test_zones_keep_their_index_and_columns(data):
     assert (table["count"].to_numpy()[4:] == 0).all()
     with pytest.raises(ValueError, match="overlap"):
         rondel.zonal_statistics(data, frame, overlap="error")
+    frame = frame.rename(columns={"name": "mean"})
+    for columns, message in (
+        ("mean", "include_cols: 'mean' is the name of a statistic's column, too"),
+        ("nope", "include_cols: the zones have no column 'nope', but 'mean', 'geometry'"),
+        (["geometry", "geometry"], "include_cols has the column 'geometry' twice"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            rondel.zonal_statistics(data, frame, "mean", include_cols=columns)
+    table = rondel.zonal_statistics(data, frame, "max", include_cols="mean")
+    assert list(table.columns) == ["mean", "max"]
 
 
 def test_fields_without_other_dimensions_have_a_row_for_each_zone(data):
