@@ -39,7 +39,8 @@ struct GridMapping {
 
 /// Returns the name of the grid on which points are by the attributes of a variable or of a file: the
 /// pixels of HEALPix by its grid mapping, as CF has it or as tools had it before, in any case of
-/// letters, or what `grid_attribute` says; an empty text if they say neither.
+/// letters, or what `grid_attribute` says; an empty text if they say neither, or two levels or orders
+/// of pixels that contradict each other.
 RONDEL_API std::string grid_named_by(const GridMapping& attributes);
 
 /// Returns what lacks in attributes that say that points are pixels of HEALPix, so that

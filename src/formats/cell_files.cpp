@@ -297,7 +297,8 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
   // Files of GDAL without polygons are refused by what they have.
   if (can_read_polygons(file) || formats::is_read_by_gdal(file))
     return of(read_polygons(file, rules, execution), options.sides, execution);
-  if (const formats::GridOfFile grid = formats::grid_of_file(file, true); !grid.name.empty()) {
+  const formats::GridOfFile grid = formats::grid_of_file(file, true);
+  if (!grid.name.empty()) {
     try {
       const NamedGrid named(grid.name, options.sides);
       if (grid.numbers.empty()) return named.cells(execution);
@@ -309,7 +310,9 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
       throw FileError(file.path + ": " + error.what());
     }
   }
-  return formats::cells_by_rules(read_cells(file, options.corners), options, execution);
+  return formats::cells_by_rules(
+      formats::read_without_grid(grid, [&] { return read_cells(file, options.corners); }), options,
+      execution);
 }
 
 }  // namespace rondel

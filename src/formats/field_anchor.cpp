@@ -7,10 +7,13 @@
 // distance, not by name.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
 
 #include "exact/angles.h"
 #include "formats/field_layout.h"
 #include "rondel/conventions.h"
+#include "system/message_text.h"
 
 namespace rondel {
 
@@ -119,6 +122,19 @@ void FieldDimensionFinder::name_wanted_places() {
       }
     }
   }
+}
+
+std::string FieldDimensionFinder::first_difference(const PlaceList& places) const {
+  std::size_t i = 0;
+  while (i + 1 < places.size() &&
+         is_same_place(places[i], wanted_places_[i], wanted_.max_apart_deg)) {
+    ++i;
+  }
+  const auto text = [](const LonLat& place) {
+    return system::shortest_text(place.lon_deg) + " " + system::shortest_text(place.lat_deg);
+  };
+  return "place " + std::to_string(i) + " is at " + text(places[i]) + ", not at " +
+         text(wanted_places_[i]);
 }
 
 // Returns the names of two coordinates for messages, "lon and lat".

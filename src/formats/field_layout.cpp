@@ -187,6 +187,7 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     const io::VariableInFile& variable) {
   std::vector<PossiblePlaces> found = candidates(variable);
   other_places_.clear();
+  first_other_.clear();
   if (found.empty()) return std::nullopt;
   if (anchor_) {
     for (PossiblePlaces& candidate : found) {
@@ -202,7 +203,8 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     other_pairs_.push_back(other_places_);
     why_not_ = "is at " + other_places_;
     if (anchor_->lon == CoordinatePair::none) {
-      why_not_ += ", which are not the places that are wanted";
+      first_other_ = first_difference(found.front().layout.places);
+      why_not_ += ", which are not the places that are wanted: " + first_other_;
     } else {
       why_not_ += ", and not at " + names_of_places();
       if (anchor_->variable != variable.name) {

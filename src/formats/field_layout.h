@@ -86,6 +86,9 @@ class FieldDimensionFinder {
   // Returns the coordinates of that variable, "lon_u and lat", if it has as many places as there
   // are points; otherwise an empty text.
   [[nodiscard]] const std::string& other_places() const { return other_places_; }
+  // Returns the first of those places that is not the one that is wanted, "place 3 is at 5 40, not at
+  // 5 41", if the caller wants places that no variable has; otherwise an empty text.
+  [[nodiscard]] const std::string& first_other() const { return first_other_; }
   // Returns the coordinates of the points, "lon and lat"; an empty text if the file has none.
   [[nodiscard]] std::string names_of_places() const;
   // Returns a sentence on the other grids that variables have for which a layout was asked; an
@@ -162,6 +165,8 @@ class FieldDimensionFinder {
   // These two functions implement rules 1 and 2, and rules 3 and 4.
   [[nodiscard]] std::optional<FieldDimensions> by_coordinates(const io::VariableInFile& variable);
   [[nodiscard]] std::optional<FieldDimensions> by_lengths(const io::VariableInFile& variable);
+  // Returns the first of these places that is not the wanted one, in words.
+  [[nodiscard]] std::string first_difference(const PlaceList& places) const;
   // These two functions return names of coordinates for messages, of one pair and of several.
   [[nodiscard]] std::string names_of(std::size_t lon, std::size_t lat) const;
   [[nodiscard]] std::string text_of_choice(const std::vector<PossiblePlaces>& found) const;
@@ -221,9 +226,10 @@ class FieldDimensionFinder {
   std::optional<DimensionSet> dimensions_of_points_;
   std::string first_by_lengths_;
   bool are_along_cells_ = false;  // the name of the points' dimension says that it counts cells
-  // Answers to the last question, for why_not() and other_places().
+  // Answers to the last question, for why_not(), other_places() and first_other().
   std::string why_not_;
   std::string other_places_;
+  std::string first_other_;
 };
 
 // Reverses the points' dimensions where the lengths of the grid are theirs in reverse; returns

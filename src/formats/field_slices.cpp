@@ -204,9 +204,11 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     std::string why;
     if (fields_.num_points == 0) why = remark_on_units(headers_of(file));
     for (const std::string& remark : fields_.remarks) why += "; " + remark;
-    throw io::BadValue("no variable has " +
-                       (fields_.num_points == 0 ? std::string("longitudes and latitudes")
-                                                : std::to_string(fields_.num_points) + " points") +
+    const std::string number = std::to_string(fields_.num_points);
+    throw io::BadValue("no variable " +
+                       (!first_elsewhere_.empty() ? "is at the " + number + " wanted places"
+                        : fields_.num_points == 0 ? "has longitudes and latitudes"
+                                                  : "has " + number + " points") +
                        why);
   }
   const bool are_chosen = !wanted.names.empty() || !wanted.places.positions.empty();
@@ -346,6 +348,7 @@ void FieldSlices::add_all() {
       apart.push_back({&variable, layouts_.why_not().empty()});
     } else {
       elsewhere.add(variable.name + " (" + layouts_.other_places() + ")");
+      if (first_elsewhere_.empty()) first_elsewhere_ = layouts_.first_other();
     }
   }
   for (const std::string& why : refused) {
@@ -366,7 +369,8 @@ void FieldSlices::add_all() {
   const std::string names = layouts_.names_of_places();
   fields_.remarks.push_back("left out, as they are at other places than " +
                             (names.empty() ? "those that are wanted" : names) + ": " +
-                            elsewhere.text());
+                            elsewhere.text() +
+                            (first_elsewhere_.empty() ? "" : "; " + first_elsewhere_));
 }
 
 // All fields are known here, and with them the dimensions of the points. A variable with some of

@@ -116,6 +116,7 @@ class FieldSlices {
   bool are_all_wanted_;  // no names were given
   FieldDimensionFinder layouts_;
   FieldSet fields_;
+  std::string first_elsewhere_;  // the first place of a variable that is not where it is wanted
   std::vector<SlicedVariable> sources_;  // by array
   // Dimensions of the sources, by their numbers in the file: those of points with a length above 1,
   // the leading ones, and all.

@@ -135,7 +135,8 @@ GridOfFile cells_at_places(const io::NetcdfReader& reader, const NamedGrid& grid
 }
 
 // Returns the grid that attributes name, if the file has cells of it, or else one without a name. The
-// attributes are those of the variable `owner`, or of the file.
+// attributes are those of the variable `owner`, or of the file. Longitudes and latitudes of other
+// places count before attributes, which a program may have copied.
 GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes,
                    const std::string& owner, bool needs_cells) {
   const std::string name = grid_named_by(attributes);
@@ -143,6 +144,13 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
   const auto has = [&](std::uint64_t length) {
     return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
   };
+  const GridOfFile passed_over{
+      .name = {},
+      .why_not =
+          (owner.empty() ? "its attributes name"
+                         : "the attributes of " + io::in_quotes(owner) + " name") +
+          " the grid " + name +
+          ", but not all of its longitudes and latitudes are places of that grid, each once"};
   try {
     const NamedGrid grid(name);
     if (name.starts_with("healpix:")) {
@@ -151,7 +159,7 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
         const bool are_all = numbers.empty();
         const auto center = [&](std::size_t i) { return grid.center(are_all ? i : numbers[i]); };
         const std::uint64_t count = are_all ? grid.num_cells() : numbers.size();
-        if (!may_be_at(reader, {count, nullptr, center})) return {};
+        if (!may_be_at(reader, {count, nullptr, center})) return passed_over;
         return {name, numbers, {}};
       }
     }
@@ -161,7 +169,8 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
         may_be_at(reader, {grid.num_cells(), grid.axes(), center})) {
       return {name, {}, {}};
     }
-    return needs_cells ? cells_at_places(reader, grid) : GridOfFile();
+    GridOfFile some = needs_cells ? cells_at_places(reader, grid) : GridOfFile();
+    return some.name.empty() ? passed_over : some;
   } catch (const InvalidInput& error) {
     throw io::BadValue(error.what());
   }
@@ -249,12 +258,13 @@ GridOfFile grid_of_file(const FileName& file, bool needs_cells) {
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
     GridOfFile grid = grid_by(reader, mapping_of(reader.attributes()), {}, needs_cells);
-    if (!grid.name.empty()) return grid;
     for (const io::VariableInFile& variable : reader.variables()) {
-      grid = grid_by(reader, mapping_of(variable.attributes), variable.name, needs_cells);
       if (!grid.name.empty()) return grid;
+      std::string why_not = std::move(grid.why_not);
+      grid = grid_by(reader, mapping_of(variable.attributes), variable.name, needs_cells);
+      if (grid.why_not.empty()) grid.why_not = std::move(why_not);
     }
-    require_pixels(reader);
+    if (grid.name.empty()) require_pixels(reader);
     return grid;
   });
 }

@@ -14,6 +14,7 @@
 
 #include "io/netcdf_reader.h"
 #include "rondel/cell_rings.h"
+#include "rondel/error.h"
 #include "rondel/io.h"
 #include "rondel/types.h"
 
@@ -39,7 +40,20 @@ struct GridOfFile {
   // The lengths of the dimensions of these cells, empty for one.
   std::vector<std::uint64_t> shape = {};
   std::string list = {};  // the variable with the numbers; of listed_pixels() alone
+  // Why attributes of the file that name a grid do not count, for the errors of what is read instead.
+  std::string why_not = {};
 };
+
+// Returns what read() returns. Its FileError also says why attributes that name a grid do not count.
+template <class Read>
+auto read_without_grid(const GridOfFile& passed_over, const Read& read) {
+  try {
+    return read();
+  } catch (const FileError& error) {
+    if (passed_over.why_not.empty()) throw;
+    throw FileError(std::string(error.what()) + "; " + passed_over.why_not);
+  }
+}
 
 // Returns the pixels of HEALPix whose numbers a variable of the file has, or no name: also where the
 // file has other places, and where the numbers are none of pixels.

@@ -158,10 +158,10 @@ class ConnectivityReader {
                                   std::ranges::count(entries_, 0.0) == 0;
     throw BadValue(
         "cell " + std::to_string(cell) + " has a corner " + system::shortest_text(entries_[at]) +
-        " of " + std::to_string(mesh_.nodes.size()) + " nodes" +
+        " of " + std::to_string(mesh_.nodes.size()) + " nodes in " + name() +
         (may_count_from_1
-             ? ", counted from 0; if they are counted from 1, the attribute start_index = 1 of " +
-                   name() + " must say so"
+             ? ", counted from 0; if they are counted from 1, its attribute start_index = 1 must "
+               "say so"
              : std::string()));
   }
 

@@ -74,7 +74,7 @@ RegridSide::RegridSide(const FileName& file, const char* what, const CellFileOpt
   const bool is_name = NamedGrid::is_name(file.path);
   const GridOfFile grid = is_name ? GridOfFile{file.path} : grid_of_file(file, has_cells);
   if (grid.name.empty()) {
-    read_file(file, has_cells, execution, names);
+    read_without_grid(grid, [&] { read_file(file, has_cells, execution, names); });
     return;
   }
   try {

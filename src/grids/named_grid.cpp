@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "rondel/query.h"
 #include "system/arithmetic.h"
 #include "system/job.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {
@@ -231,26 +233,70 @@ bool is_of_pixels(const GridMapping& attributes) {
          in_lower_case(text_of(attributes, "grid_name")) == healpix_text;  // as xdggs has it
 }
 
-// Returns the level of pixels that attributes have, or -1 if they have none.
+// The attributes by which a grid mapping has a number or a text, in the order in which they count.
+constexpr std::string_view level_names[] = {"refinement_level", "level"};
+constexpr std::string_view side_names[] = {"healpix_nside", "nside"};
+constexpr std::string_view order_names[] = {"indexing_scheme", "healpix_order"};
+
+// Returns the first of these attributes and its number, or -1.
+std::pair<std::string_view, double> first_number(const GridMapping& attributes,
+                                                 std::span<const std::string_view> names) {
+  for (const std::string_view name : names) {
+    if (const double number = number_of(attributes, name); number >= 0) return {name, number};
+  }
+  return {{}, -1};
+}
+
+// Returns the level of pixels that attributes have, or -1 if they have none, or two.
 int level_of(const GridMapping& attributes) {
-  double level = number_of(attributes, "refinement_level");
-  if (level < 0) level = number_of(attributes, "level");
-  double side = number_of(attributes, "healpix_nside");
-  if (side < 0) side = number_of(attributes, "nside");
+  double level = first_number(attributes, level_names).second;
+  const double side = first_number(attributes, side_names).second;
   for (unsigned k = 0; level < 0 && k <= max_healpix_order; ++k) {
     if (side == static_cast<double>(1U << k)) level = k;
   }
   if (!(level >= 0) || level > max_healpix_order || level != std::floor(level)) return -1;
+  if (side >= 0 && side != std::ldexp(1, static_cast<int>(level))) return -1;
   return static_cast<int>(level);
 }
 
-// Returns in which order attributes say that pixels are, "ring" or "nested", or an empty text.
+// Returns the order of pixels that a word means, "ring" or "nested", or an empty text.
+std::string order_named(std::string word) {
+  word = in_lower_case(std::move(word));
+  if (word == "ring") return word;
+  return word == "nested" || word == "nest" ? "nested" : "";
+}
+
+// Returns in which order attributes say that pixels are, "ring" or "nested", or an empty text if they
+// say none, or two.
 std::string order_of(const GridMapping& attributes) {
-  std::string order = text_of(attributes, "indexing_scheme");
-  if (order.empty()) order = text_of(attributes, "healpix_order");
-  order = in_lower_case(std::move(order));
-  if (order == "ring") return order;
-  return order == "nested" || order == "nest" ? "nested" : "";
+  std::string order;
+  for (const std::string_view name : order_names) {
+    const std::string word = text_of(attributes, name);
+    if (word.empty()) continue;
+    const std::string own = order_named(word);
+    if (own.empty() || (!order.empty() && own != order)) return {};
+    order = own;
+  }
+  return order;
+}
+
+// Returns why attributes have no level, for lack_of_mapping().
+std::string lack_of_level(const GridMapping& attributes) {
+  const auto [level_name, level] = first_number(attributes, level_names);
+  const auto [side_name, side] = first_number(attributes, side_names);
+  if (level < 0 || side < 0) {
+    return "refinement_level (0 to 13) or healpix_nside (a power of two up to 8192)";
+  }
+  return "level that " + std::string(level_name) + " = " + system::shortest_text(level) + " and " +
+         std::string(side_name) + " = " + system::shortest_text(side) + " agree on";
+}
+
+// Returns why attributes have no order, for lack_of_mapping().
+std::string lack_of_order(const GridMapping& attributes) {
+  const std::string scheme = text_of(attributes, order_names[0]);
+  const std::string order = text_of(attributes, order_names[1]);
+  if (scheme.empty() || order.empty()) return "indexing_scheme or healpix_order (nested or ring)";
+  return "order that indexing_scheme = " + scheme + " and healpix_order = " + order + " agree on";
 }
 
 }  // namespace
@@ -267,12 +313,9 @@ std::string grid_named_by(const GridMapping& attributes) {
 std::string lack_of_mapping(const GridMapping& attributes) {
   if (!is_of_pixels(attributes)) return {};
   std::string lack;
-  if (level_of(attributes) < 0) {
-    lack = "refinement_level (0 to 13) or healpix_nside (a power of two up to 8192)";
-  }
+  if (level_of(attributes) < 0) lack = lack_of_level(attributes);
   if (order_of(attributes).empty()) {
-    lack += std::string(lack.empty() ? "" : ", and ") +
-            "indexing_scheme or healpix_order (nested or ring)";
+    lack += (lack.empty() ? "" : ", and ") + lack_of_order(attributes);
   }
   return lack;
 }

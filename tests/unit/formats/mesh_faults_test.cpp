@@ -276,7 +276,8 @@ TEST(overlay_mesh_faults, corners_that_are_no_nodes_are_refused) {
     EXPECT_EQ(fault_of(ugrid_of(mesh, set(corner, -3))), said("-3", place, "face_nodes", before));
     EXPECT_EQ(fault_of(exodus_of(mesh, set(corner, 0))), said("0", place, "connect1", before));
   }
-  EXPECT_EQ(fault_of(esmf_of(mesh, set(3, 17))), "cell 1 has a corner 17 of 16 nodes");
+  EXPECT_EQ(fault_of(esmf_of(mesh, set(3, 17))),
+            "cell 1 has a corner 17 of 16 nodes in \"elementConn\"");
 }
 
 TEST(overlay_mesh_faults, counts_of_corners_that_are_too_large_or_no_numbers_are_refused) {

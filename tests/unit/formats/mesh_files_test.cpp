@@ -639,7 +639,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([&] {
               (void)ugrid({0, 0, 1}, {0, 1, 2, 0, 1, 3});
             }),
-            "cell 1 has a corner 3 of 3 nodes");
+            "cell 1 has a corner 3 of 3 nodes in \"faces\"");
   EXPECT_EQ(refusal_of([&] {
               (void)ugrid({0, 95, 1}, {0, 1, 2});
             }),

@@ -215,6 +215,23 @@ TEST(named_grids, it_is_told_what_attributes_of_pixels_lack) {
             "indexing_scheme or healpix_order (nested or ring)");
 }
 
+TEST(named_grids, attributes_of_pixels_that_contradict_each_other_name_none) {
+  const auto mapping = [](const char* scheme, const char* order, double level, double side) {
+    return GridMapping{
+        {{"grid_mapping_name", "healpix"}, {"indexing_scheme", scheme}, {"healpix_order", order}},
+        {{"refinement_level", level}, {"healpix_nside", side}}};
+  };
+  EXPECT_EQ(grid_named_by(mapping("nested", "NEST", 2, 4)), "healpix:2:nested");
+  EXPECT_EQ(lack_of_mapping(mapping("nested", "NEST", 2, 4)), "");
+  EXPECT_EQ(grid_named_by(mapping("nested", "nested", 1, 4)), "");
+  EXPECT_EQ(lack_of_mapping(mapping("nested", "nested", 1, 4)),
+            "level that refinement_level = 1 and healpix_nside = 4 agree on");
+  EXPECT_EQ(grid_named_by(mapping("nested", "ring", 2, 4)), "");
+  EXPECT_EQ(lack_of_mapping(mapping("nested", "ring", 2, 7)),
+            "level that refinement_level = 2 and healpix_nside = 7 agree on, and order that "
+            "indexing_scheme = nested and healpix_order = ring agree on");
+}
+
 TEST(named_grids, some_cells_are_those_of_the_whole) {
   for (const char* const name : {"healpix:2:ring", "healpix:1", "O4", "C3", "tripolar:10"}) {
     const NamedGrid grid(name);

@@ -18,10 +18,12 @@
 #include <string>
 #include <vector>
 
+#include "rondel/cell_set.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
+#include "rondel/io.h"
 #include "rondel/named_grids.h"
 #include "rondel/names.h"
 #include "rondel/regrid.h"
@@ -260,6 +262,59 @@ TEST(regrid_files, refuse_what_does_not_fit) {
       why("grid:60", {.source = FileName{"C3", {}}, .method = FieldMethod::bilinear}).substr(0, 4),
       in.substr(0, 4));
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+// Writes the fields at places in a list, which the file says are those of O2.
+void write_list(const std::string& path, const std::vector<LonLat>& places) {
+  FieldSet fields = made_fields(places);
+  fields.attributes.emplace_back(grid_attribute, "O2");
+  WeightSide side;
+  side.points = places;
+  write_fields({path, {}}, fields, side);
+}
+
+TEST(regrid_files, say_which_place_is_not_that_of_the_grid) {
+  const std::string in = temporary_path("moved.nc");
+  const std::string out = temporary_path("moved-out.nc");
+  std::vector<LonLat> places = NamedGrid("O2").centers();
+  const auto why = [&](const RegridFileOptions& options) {
+    return thrown_message<FileError>([&] {
+      return regrid_file({in, {}}, {"grid:60", {}}, {out, {}}, options);
+    });
+  };
+  write_list(in, places);
+  EXPECT_EQ(regrid_file({in, {}}, {"grid:60", {}}, {out, {}}).fields, 4U);
+  places[3].lat_deg = 12.5;
+  write_list(in, places);
+  const std::string wanted = why({.source = FileName{"O2", {}}});
+  EXPECT_NE(wanted.find(": no variable is at the 88 wanted places; "), std::string::npos) << wanted;
+  EXPECT_NE(wanted.find("; place 3 is at 54 12.5, not at 54 59.44"), std::string::npos) << wanted;
+  const std::string named = why({.names = {"patchy"}, .source = FileName{"O2", {}}});
+  EXPECT_NE(named.find("variable \"patchy\" is at lon and lat, which are not the places that are "
+                       "wanted: place 3 is at 54 12.5"),
+            std::string::npos)
+      << named;
+  const std::string own = why({});
+  EXPECT_NE(own.find("; its attributes name the grid O2, but not all of its longitudes and "
+                     "latitudes are places of that grid, each once"),
+            std::string::npos)
+      << own;
+  EXPECT_EQ(thrown_message<FileError>([&] { (void)CellSet::read({in, {}}); }), own);
+}
+
+// A table of regions is read again, whatever their columns are called.
+TEST(regrid_files, tables_have_one_column_for_each_coordinate) {
+  const std::string in = temporary_path("fields-of-table.nc");
+  write_input(in, "grid:30");
+  const std::string polygons = temporary_path("columns.geojson");
+  std::ofstream(polygons)
+      << R"({"type":"Feature","properties":{"LON":1,"Latitude":2,"x":3,"Y":4,"z":5,"lng_":6},)"
+      << R"("geometry":{"type":"Polygon","coordinates":[[[0,0],[40,0],[40,40],[0,0]]]}})";
+  const std::string table = temporary_path("columns.csv");
+  (void)regrid_file({in, {}}, {polygons, {}}, {table, {}}, {.names = {"patchy"}});
+  const std::string text = file_bytes(table);
+  EXPECT_EQ(text.substr(0, text.find('\n')), "lon,lat,LON_,Latitude_,x_,Y_,z_,lng_,patchy");
+  EXPECT_EQ(read_sites({table, {}}).sites.size(), 1U);
 }
 
 }  // namespace
