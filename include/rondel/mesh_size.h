@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondel/export.h"
+#include "rondel/mesh_region.h"
 #include "rondel/types.h"
 
 namespace rondel::mesh {
@@ -19,10 +20,13 @@ namespace rondel::mesh {
 /// The wanted spacing of a mesh: the distance of neighboring sites, in radians, as a function on
 /// the sphere.
 ///
-/// 1. It is stored as values on a raster on the six faces of a cube, and bilinear in between in
+/// 1. It is stored as values on a raster of the sphere or of a region, and bilinear in between in
 ///    1/spacing. The function that it is made from is evaluated once at each node of the raster.
 /// 2. It is immutable; copies are cheap.
-/// 3. The density of a centroidal tessellation with these spacings is (smallest() / spacing)^4,
+/// 3. Outside of its region it is the spacing at the place of the border where the coordinates on
+///    the plane of the region are clamped; on the far hemisphere that at a corner. Meshes of the
+///    whole sphere (scvt(), relax()) refuse a function on a region.
+/// 4. The density of a centroidal tessellation with these spacings is (smallest() / spacing)^4,
 ///    from 0 to 1 (Ringler, Ju and Gunzburger, Ocean Dynamics 58, 2008).
 class RONDEL_API SizeFunction {
  public:
@@ -36,22 +40,22 @@ class RONDEL_API SizeFunction {
 
   /// Makes a spacing that is the same everywhere.
   /// \throws InvalidInput if the spacing is not between 0 and pi.
-  static SizeFunction constant(double spacing, std::size_t steps = usual_steps);
+  static SizeFunction constant(double spacing, const SizeRaster& raster = usual_steps);
   /// Makes the spacing of a mesh of `count` equal cells.
   /// \throws InvalidInput for 0, or so few cells that the spacing is not less than pi.
   static SizeFunction of_count(std::size_t count);
   /// Returns the places of the nodes of a raster: unit vectors, in the order in which from_nodes()
   /// takes their spacings.
-  /// \throws InvalidInput if the steps are no power of two from 1 to 4096.
-  static std::vector<Point> nodes(std::size_t steps = usual_steps);
-  /// Makes spacings of their values in radians at nodes(steps).
+  /// \throws InvalidInput if the raster is not as described.
+  static std::vector<Point> nodes(const SizeRaster& raster = usual_steps);
+  /// Makes spacings of their values in radians at nodes(raster).
   /// \throws InvalidInput as from_function(), and if there is not one spacing for each node.
-  static SizeFunction from_nodes(std::vector<double> spacings, std::size_t steps = usual_steps);
+  static SizeFunction from_nodes(std::vector<double> spacings,
+                                 const SizeRaster& raster = usual_steps);
   /// Evaluates a function, which one thread calls at a time.
-  /// \param steps  of the raster along a face of the cube
-  /// \throws InvalidInput if the steps are no power of two from 1 to 4096; (number of the node) if
-  ///         a spacing is not between 0 and pi.
-  static SizeFunction from_function(const Block& spacings, std::size_t steps = usual_steps);
+  /// \throws InvalidInput if the raster is not as described; (number of the node) if a spacing is
+  ///         not between 0 and pi.
+  static SizeFunction from_function(const Block& spacings, const SizeRaster& raster = usual_steps);
   /// Interpolates values on a grid of longitudes and latitudes bilinearly; beyond the first and the
   /// last latitude the values are those at that latitude.
   /// \param lon_deg  degrees, ascending or descending
@@ -59,16 +63,18 @@ class RONDEL_API SizeFunction {
   /// \param spacings  radians; the longitudes change fastest
   /// \throws InvalidInput as from_function(), and if lengths or axes are not as described.
   static SizeFunction from_grid(std::span<const double> lon_deg, std::span<const double> lat_deg,
-                                std::span<const double> spacings, std::size_t steps = usual_steps);
+                                std::span<const double> spacings,
+                                const SizeRaster& raster = usual_steps);
 
   /// Returns the smaller one of this spacing and a spacing that is `near` (radians) at the points
   /// and grows from there by `slope` for each radian of distance. A line is given by points that
-  /// are closer than `near` to each other (densified()).
+  /// are closer than `near` to each other (densified()). Points outside of the region count by
+  /// their distance, too.
   /// \throws InvalidInput if there are no points, `near` is not a spacing or the slope is negative.
   [[nodiscard]] SizeFunction refined(std::span<const Point> points, double near, double slope,
                                      const Execution& execution = {}) const;
   /// Returns the largest spacing that is nowhere larger than this one and grows by no more than
-  /// `slope` for each radian. Each node is compared with the 16 nodes around it, so that along some
+  /// `slope` for each radian, in its region. Each node is compared with the 16 nodes around it, so that along some
   /// directions it may grow by 3 % more.
   /// \throws InvalidInput if the slope is negative.
   [[nodiscard]] SizeFunction limited(double slope) const;
@@ -79,7 +85,10 @@ class RONDEL_API SizeFunction {
   [[nodiscard]] double density(const Point& place) const;
   [[nodiscard]] double smallest() const noexcept;
   [[nodiscard]] double largest() const noexcept;
-  /// Returns the number of sites with these spacings: the integral of 1 / (sqrt(3)/2 spacing^2).
+  /// Returns the raster.
+  [[nodiscard]] SizeRaster raster() const;
+  /// Returns the number of sites with these spacings in the region, or on the sphere: the integral of
+  /// 1 / (sqrt(3)/2 spacing^2).
   [[nodiscard]] double count() const;
   /// Returns all spacings multiplied by a factor.
   [[nodiscard]] SizeFunction scaled(double factor) const;
@@ -91,7 +100,7 @@ class RONDEL_API SizeFunction {
   struct Raster;
   friend class DensityNodes;
   explicit SizeFunction(std::shared_ptr<const Raster> raster) : raster_(std::move(raster)) {}
-  static SizeFunction of(std::vector<double> spacings, std::size_t steps);
+  static SizeFunction of(std::vector<double> spacings, const SizeRaster& raster);
   [[nodiscard]] double relative(const Point& place) const;  // smallest / spacing
   std::shared_ptr<const Raster> raster_;
 };

@@ -13,6 +13,7 @@
 #include "rondel/export.h"
 #include "rondel/geometries.h"
 #include "rondel/mesh_refine.h"
+#include "rondel/mesh_region.h"
 #include "rondel/triangle_mesh.h"
 #include "rondel/types.h"
 
@@ -29,6 +30,11 @@ struct MeshDomain {
   /// Where the turn of the mesh's longitudes begins (west_of(), rondel/longitudes.h).
   double west_deg = -180;
 };
+
+/// Returns a small region (rondel/mesh_region.h) that has all of the domain's area, on which its
+/// spacings are best kept. None: there is no area, it is on the outside of its border, is not valid,
+/// or reaches farther than 45 degrees from its middle to a side.
+RONDEL_API std::optional<SizeRegion> region_of(const MeshDomain& domain);
 
 /// The kind of feature that an edge of RefinedMesh::edges follows.
 enum class FeatureOfEdge : std::uint8_t {

@@ -23,7 +23,8 @@ constexpr std::array<Orbit, 2> degree_4 = {
 }  // namespace
 
 // Lanes that no caller sets have a triangle, so that they compute with finite numbers.
-DensityNodes::DensityNodes(const SizeFunction& size) : raster_(*size.raster_) {
+DensityNodes::DensityNodes(const SizeFunction& size)
+    : raster_(*size.raster_), cube_(std::get<CubeRaster>(raster_.places)) {
   for (std::size_t k = 0; k < lanes; ++k) set(k, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
 }
 
@@ -38,9 +39,9 @@ inline void DensityNodes::find_solids() {
 // Computes the nodes with these barycentric coordinates, and the squares of the raster in which
 // they lie.
 inline void DensityNodes::place_nodes(double of_first, double of_second) {
-  const double scale = 0.5 * static_cast<double>(raster_.cube.steps);
-  const auto last = static_cast<std::int32_t>(raster_.cube.steps - 1);
-  const auto side = static_cast<std::int32_t>(raster_.cube.side());
+  const double scale = 0.5 * static_cast<double>(cube_.steps);
+  const auto last = static_cast<std::int32_t>(cube_.steps - 1);
+  const auto side = static_cast<std::int32_t>(cube_.side());
   for (std::size_t k = 0; k < lanes; ++k) {
     const auto z = sites_[k];
     const auto p = z + (of_first * first_[k] + of_second * second_[k]);
@@ -76,7 +77,7 @@ inline void DensityNodes::place_nodes(double of_first, double of_second) {
 
 // The raster is read apart from the vectorized loops, since its values lie at computed places.
 inline void DensityNodes::read_raster() {
-  const std::size_t side = raster_.cube.side();
+  const std::size_t side = cube_.side();
   for (std::size_t k = 0; k < lanes; ++k) {
     const float* const low = &raster_.relative[squares_[k]];
     corners_[0][k] = low[0];

@@ -20,6 +20,8 @@
 
 namespace rondel::mesh {
 
+struct CubeRaster;
+
 // Integrals over a cell or a part of it, with the density rho.
 struct CellSums {
   exact::Vector3<double> moment;  // of rho (x - z); for constant density of x
@@ -33,6 +35,7 @@ class DensityNodes {
  public:
   static constexpr std::size_t lanes = 64;
 
+  // Precondition: the size function is known on the whole sphere.
   explicit DensityNodes(const SizeFunction& size);
 
   // Sets the triangle of a lane: its site, and its two other corners relative to the site.
@@ -77,6 +80,7 @@ class DensityNodes {
   void add_nodes(double weight);
 
   const SizeFunction::Raster& raster_;
+  const CubeRaster& cube_;
   VectorLanes sites_, first_, second_;
   alignas(64) Numbers solids_;
   // The data of one node in each triangle.

@@ -222,8 +222,12 @@ void require_fixed(std::span<const Point> fixed, std::size_t count) {
                      count);
 }
 
-// Throws InvalidInput for a number of steps that is negative.
-void require_steps(const ScvtOptions& options) {
+// Throws InvalidInput for a number of steps that is negative, or spacings that are not known on the
+// whole sphere.
+void require_valid(const ScvtOptions& options) {
+  if (options.size && options.size->raster().region) {
+    throw InvalidInput("a tessellation covers the sphere, and its spacings are those of a region");
+  }
   if (options.max_iterations >= 0) return;
   throw InvalidInput("the largest number of steps is negative: " +
                      std::to_string(options.max_iterations));
@@ -241,7 +245,7 @@ std::string_view name_of(ScvtEnd end) noexcept {
 
 Scvt scvt(const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
-  require_steps(options);
+  require_valid(options);
   std::size_t count = options.count;
   if (count == 0 && options.size) {
     count = static_cast<std::size_t>(
@@ -258,7 +262,7 @@ Scvt scvt(const ScvtOptions& options, const Execution& execution) {
 
 Scvt relax(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
-  require_steps(options);
+  require_valid(options);
   Scvt result;
   require_places(sites, "a site");
   result.sites = unit_places(sites);

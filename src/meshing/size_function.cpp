@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <variant>
 
 #include "exact/angles.h"
 #include "exact/vector.h"
@@ -24,14 +25,6 @@ namespace {
 
 bool is_spacing(double value) { return value > 0 && value < std::numbers::pi; }
 
-// Throws InvalidInput unless the steps are a power of two from 1 to 4096.
-void require_steps(std::size_t steps) {
-  if (steps < 1 || steps > 4096 || !std::has_single_bit(steps)) {
-    throw InvalidInput("the steps of a raster are a power of two from 1 to 4096, not " +
-                       std::to_string(steps));
-  }
-}
-
 void require_count(std::size_t count) {
   if (count == 0) throw InvalidInput("a mesh has at least one cell");
 }
@@ -43,23 +36,25 @@ void require_slope(double slope) {
   }
 }
 
-// Calls visit(face, i, j) for the nodes in the order of their indices.
-template <class Visit>
-void for_each_node(const CubeRaster& cube, const Visit& visit) {
-  for (std::size_t face = 0; face < 6; ++face) {
-    for (std::size_t j = 0; j < cube.side(); ++j) {
-      for (std::size_t i = 0; i < cube.side(); ++i) visit(face, i, j);
-    }
-  }
+// The number of nodes that are worked at together.
+constexpr std::size_t block_nodes = std::size_t{1} << 16U;
+
+std::size_t num_nodes_of(const AnyRaster& raster) {
+  return std::visit([](const auto& nodes) { return nodes.num_nodes(); }, raster);
 }
 
-std::vector<Point> places_of_nodes(const CubeRaster& cube) {
-  std::vector<Point> places;
-  places.reserve(cube.num_nodes());
-  for_each_node(cube, [&](std::size_t face, std::size_t i, std::size_t j) {
-    places.push_back(cube.place(face, i, j));
-  });
-  return places;
+// Appends the places of the nodes [begin, end).
+void append_places(const AnyRaster& raster, std::size_t begin, std::size_t end,
+                   std::vector<Point>& places) {
+  std::visit(
+      [&](const auto& nodes) {
+        for (std::size_t k = begin; k < end; ++k) {
+          const std::size_t row = k / nodes.columns();
+          places.push_back(
+              nodes.place(row / nodes.rows(), k % nodes.columns(), row % nodes.rows()));
+        }
+      },
+      raster);
 }
 
 // A position on an increasing axis: between axis[first] and axis[second], and at which part of the
@@ -95,7 +90,7 @@ bool is_increasing(std::span<const double> axis) {
 
 }  // namespace
 
-SizeFunction SizeFunction::of(std::vector<double> spacings, std::size_t steps) {
+SizeFunction SizeFunction::of(std::vector<double> spacings, const SizeRaster& raster) {
   for (std::size_t i = 0; i < spacings.size(); ++i) {
     if (!is_spacing(spacings[i])) {
       throw InvalidInput(
@@ -103,16 +98,15 @@ SizeFunction SizeFunction::of(std::vector<double> spacings, std::size_t steps) {
     }
   }
   const auto [low, high] = std::ranges::minmax(spacings);
-  auto raster = std::make_shared<Raster>(Raster{{steps}, {}, low, high});
-  raster->relative.reserve(spacings.size());
-  for (const double h : spacings) raster->relative.push_back(static_cast<float>(low / h));
-  return SizeFunction(std::move(raster));
+  auto made = std::make_shared<Raster>(Raster{raster_of(raster), {}, low, high});
+  made->relative.reserve(spacings.size());
+  for (const double h : spacings) made->relative.push_back(static_cast<float>(low / h));
+  return SizeFunction(std::move(made));
 }
 
-SizeFunction SizeFunction::constant(double spacing, std::size_t steps) {
+SizeFunction SizeFunction::constant(double spacing, const SizeRaster& raster) {
   const system::ArithmeticScope arithmetic;
-  require_steps(steps);
-  return of(std::vector<double>(CubeRaster{steps}.num_nodes(), spacing), steps);
+  return of(std::vector<double>(num_nodes_of(raster_of(raster)), spacing), raster);
 }
 
 SizeFunction SizeFunction::of_count(std::size_t count) {
@@ -121,38 +115,43 @@ SizeFunction SizeFunction::of_count(std::size_t count) {
   return constant(spacing_of(4 * std::numbers::pi / static_cast<double>(count)), 1);
 }
 
-std::vector<Point> SizeFunction::nodes(std::size_t steps) {
+std::vector<Point> SizeFunction::nodes(const SizeRaster& raster) {
   const system::ArithmeticScope arithmetic;
-  require_steps(steps);
-  return places_of_nodes({steps});
+  const AnyRaster nodes = raster_of(raster);
+  std::vector<Point> places;
+  places.reserve(num_nodes_of(nodes));
+  append_places(nodes, 0, num_nodes_of(nodes), places);
+  return places;
 }
 
-SizeFunction SizeFunction::from_nodes(std::vector<double> spacings, std::size_t steps) {
+SizeFunction SizeFunction::from_nodes(std::vector<double> spacings, const SizeRaster& raster) {
   const system::ArithmeticScope arithmetic;
-  require_steps(steps);
-  const std::size_t num_nodes = CubeRaster{steps}.num_nodes();
+  const std::size_t num_nodes = num_nodes_of(raster_of(raster));
   if (spacings.size() != num_nodes) {
     throw InvalidInput("there are " + std::to_string(spacings.size()) + " spacings for " +
                            std::to_string(num_nodes) + " nodes",
                        std::min(spacings.size(), num_nodes));
   }
-  return of(std::move(spacings), steps);
+  return of(std::move(spacings), raster);
 }
 
-SizeFunction SizeFunction::from_function(const Block& spacings, std::size_t steps) {
-  const std::vector<Point> places = nodes(steps);
-  std::vector<double> values(places.size());
-  constexpr std::size_t block = 1 << 16;
-  for (std::size_t begin = 0; begin < places.size(); begin += block) {
-    const std::size_t size = std::min(block, places.size() - begin);
-    spacings(std::span(places).subspan(begin, size), std::span(values).subspan(begin, size));
+SizeFunction SizeFunction::from_function(const Block& spacings, const SizeRaster& raster) {
+  const system::ArithmeticScope arithmetic;
+  const AnyRaster nodes = raster_of(raster);
+  std::vector<double> values(num_nodes_of(nodes));
+  std::vector<Point> places;
+  for (std::size_t begin = 0; begin < values.size(); begin += block_nodes) {
+    const std::size_t size = std::min(block_nodes, values.size() - begin);
+    places.clear();
+    append_places(nodes, begin, begin + size, places);
+    spacings(places, std::span(values).subspan(begin, size));
   }
-  return from_nodes(std::move(values), steps);
+  return of(std::move(values), raster);
 }
 
 SizeFunction SizeFunction::from_grid(std::span<const double> lon_deg,
                                      std::span<const double> lat_deg,
-                                     std::span<const double> spacings, std::size_t steps) {
+                                     std::span<const double> spacings, const SizeRaster& raster) {
   const system::ArithmeticScope arithmetic;
   if (spacings.size() != lon_deg.size() * lat_deg.size()) {
     throw InvalidInput("there is not one spacing for each longitude and latitude",
@@ -189,7 +188,7 @@ SizeFunction SizeFunction::from_grid(std::span<const double> lon_deg,
       out[k] = below * (1 - y.part) + above * y.part;
     }
   };
-  return from_function(block, steps);
+  return from_function(block, raster);
 }
 
 SizeFunction SizeFunction::refined(std::span<const Point> points, double near, double slope,
@@ -198,17 +197,25 @@ SizeFunction SizeFunction::refined(std::span<const Point> points, double near, d
   require_slope(slope);
   if (points.empty()) throw InvalidInput("there are no points to refine at");
   if (!is_spacing(near)) throw InvalidInput("a spacing is between 0 and pi");
-  const std::vector<Point> places = places_of_nodes(raster_->cube);
+  const AnyRaster& nodes = raster_->places;
   const Locator locator(delaunay(Sites::view(points), {}, execution));
-  const std::vector<Index> nearest = locator.nearest(places, execution);
-  std::vector<double> spacings(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double distance = locator.distance(places[i], nearest[i]);
-    // Uses the values at the nodes, before they are rounded to single precision.
-    const double wide = raster_->smallest / static_cast<double>(raster_->relative[i]);
-    spacings[i] = std::min(wide, near + slope * distance);
-  }
-  return of(std::move(spacings), raster_->cube.steps);
+  std::vector<double> spacings(raster_->relative.size());
+  // Each thread has the places of a block alone, and not those of all nodes.
+  constexpr std::size_t grain = 4096;
+  const auto refine_block = [&](std::size_t begin, std::size_t end) {
+    std::vector<Point> places;
+    places.reserve(end - begin);
+    append_places(nodes, begin, end, places);
+    const std::vector<Index> nearest = locator.nearest(places, {.threads = 1});
+    for (std::size_t i = begin; i < end; ++i) {
+      const double distance = locator.distance(places[i - begin], nearest[i - begin]);
+      // Uses the values at the nodes, before they are rounded to single precision.
+      const double wide = raster_->smallest / static_cast<double>(raster_->relative[i]);
+      spacings[i] = std::min(wide, near + slope * distance);
+    }
+  };
+  system::parallel_for(execution.threads, spacings.size(), grain, refine_block);
+  return of(std::move(spacings), raster());
 }
 
 SizeFunction SizeFunction::limited(double slope) const {
@@ -217,17 +224,28 @@ SizeFunction SizeFunction::limited(double slope) const {
   std::vector<double> spacings(raster_->relative.size());
   std::ranges::transform(raster_->relative, spacings.begin(),
                          [&](float r) { return raster_->smallest / static_cast<double>(r); });
-  limit_slope(raster_->cube, slope, spacings);
-  return of(std::move(spacings), raster_->cube.steps);
+  limit_slope(raster_->places, slope, spacings);
+  return of(std::move(spacings), raster());
+}
+
+SizeRaster SizeFunction::raster() const {
+  if (const auto* plane = std::get_if<PlaneRaster>(&raster_->places)) {
+    return {plane->region(), plane->steps()};
+  }
+  return std::get<CubeRaster>(raster_->places).steps;
 }
 
 double SizeFunction::relative(const Point& place) const {
-  const CubeRaster::RasterPlace spot = raster_->cube.spot(place);
-  const float* const low = &raster_->relative[raster_->cube.node(spot.face, spot.i, spot.j)];
-  const float* const high = low + raster_->cube.side();
-  const double below = low[0] + spot.s * (static_cast<double>(low[1]) - low[0]);
-  const double above = high[0] + spot.s * (static_cast<double>(high[1]) - high[0]);
-  return below + spot.t * (above - below);
+  return std::visit(
+      [&](const auto& nodes) {
+        const RasterPlace spot = nodes.spot(place);
+        const float* const low = &raster_->relative[nodes.node(spot.face, spot.i, spot.j)];
+        const float* const high = low + nodes.columns();
+        const double below = low[0] + spot.s * (static_cast<double>(low[1]) - low[0]);
+        const double above = high[0] + spot.s * (static_cast<double>(high[1]) - high[0]);
+        return below + spot.t * (above - below);
+      },
+      raster_->places);
 }
 
 double SizeFunction::spacing(const Point& place) const {
@@ -247,29 +265,33 @@ double SizeFunction::largest() const noexcept { return raster_->largest; }
 // solid angles.
 double SizeFunction::count() const {
   const system::ArithmeticScope arithmetic;
-  const CubeRaster& cube = raster_->cube;
   double sum = 0;
   double whole = 0;
-  for (std::size_t face = 0; face < 6; ++face) {
-    for (std::size_t j = 0; j < cube.steps; ++j) {
-      for (std::size_t i = 0; i < cube.steps; ++i) {
-        const double a = 0.5 * (cube.coordinate(i) + cube.coordinate(i + 1));
-        const double b = 0.5 * (cube.coordinate(j) + cube.coordinate(j + 1));
-        const double square = 1 + a * a + b * b;
-        const double solid = 1 / (square * std::sqrt(square));
-        double density = 0;
-        for (const std::size_t k : {cube.node(face, i, j), cube.node(face, i + 1, j),
-                                    cube.node(face, i, j + 1), cube.node(face, i + 1, j + 1)}) {
-          const double r = static_cast<double>(raster_->relative[k]);
-          density += 0.25 * r * r;
+  const auto add_squares = [&](const auto& nodes) {
+    for (std::size_t face = 0; face < nodes.num_faces(); ++face) {
+      for (std::size_t j = 0; j + 1 < nodes.rows(); ++j) {
+        for (std::size_t i = 0; i + 1 < nodes.columns(); ++i) {
+          const double a = 0.5 * (nodes.x(i) + nodes.x(i + 1));
+          const double b = 0.5 * (nodes.y(j) + nodes.y(j + 1));
+          const double square = 1 + a * a + b * b;
+          const double solid = 1 / (square * std::sqrt(square));
+          double density = 0;
+          for (const std::size_t k : {nodes.node(face, i, j), nodes.node(face, i + 1, j),
+                                      nodes.node(face, i, j + 1), nodes.node(face, i + 1, j + 1)}) {
+            const double r = static_cast<double>(raster_->relative[k]);
+            density += 0.25 * r * r;
+          }
+          sum += solid * density;
+          whole += solid;
         }
-        sum += solid * density;
-        whole += solid;
       }
     }
-  }
+  };
+  std::visit(add_squares, raster_->places);
+  const auto* const plane = std::get_if<PlaneRaster>(&raster_->places);
+  const double area = plane == nullptr ? 4 * std::numbers::pi : plane->solid_angle();
   const double of_hexagon = 0.5 * std::numbers::sqrt3 * raster_->smallest * raster_->smallest;
-  return 4 * std::numbers::pi * (sum / whole) / of_hexagon;
+  return area * (sum / whole) / of_hexagon;
 }
 
 SizeFunction SizeFunction::for_count(std::size_t number) const {

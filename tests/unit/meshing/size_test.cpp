@@ -173,7 +173,7 @@ TEST(mesh_size, places_are_among_nodes_of_their_face) {
   for (std::size_t node = 0; node < 6 * side * side; ++node) {
     const auto p =
         CubeRaster{side - 1}.on_cube(node / (side * side), node % side, node / side % side);
-    const CubeRaster::RasterPlace found = cube.spot({p[0], p[1], p[2]});
+    const RasterPlace found = cube.spot({p[0], p[1], p[2]});
     ASSERT_LT(found.i, cube.steps);
     ASSERT_LT(found.j, cube.steps);
     const auto at = cube.on_cube(found.face, found.i, found.j);
