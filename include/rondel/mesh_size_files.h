@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,15 +22,22 @@ namespace rondel::mesh {
 
 /// Reads the points for SizeFunction::refined(): those of read_places(), closer than `distance`
 /// radians along lines.
-/// \throws InvalidInput if the distance or the tolerance of the options is not positive.
+/// \param region  the region of the spacings. Lines outside of it have points that are at most a
+///                quarter of their distance from it apart, if that is more: in the region this adds
+///                at most 1 % to the distance of a line
+/// \throws InvalidInput if the distance or the tolerance of the options is not positive, or the region
+///         is not as described.
 RONDEL_API std::vector<Point> read_refinement(const FileName& file, double distance,
                                               const PolygonOptions& options = {},
-                                              const Execution& execution = {});
+                                              const Execution& execution = {},
+                                              const std::optional<SizeRegion>& region = {});
 
 /// What a mesh asks of the spacings of a file.
 struct SpacingsWanted {
   /// While the raster has another spacing than a place of the file by more than a fifth, its steps are
   /// doubled up to this number, and then a remark says how many places there are; 0: the steps stay.
+  /// On a region places outside do not count, and the steps begin with the distance of places where
+  /// these are closest, if that is shorter.
   std::size_t most_steps = 0;
   /// Corners of the polygons in which the mesh is; empty: it is on the whole sphere. A remark says if
   /// the places of the file do not surround them.
@@ -47,7 +55,7 @@ struct SpacingsWanted {
 ///              a value, places that another one with another value repeats, of which the first
 ///              one counts, and parts of the sphere without places; null: nobody is told
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
-                                      std::size_t steps = SizeFunction::usual_steps,
+                                      const SizeRaster& raster = SizeFunction::usual_steps,
                                       const Execution& execution = {},
                                       std::vector<std::string>* remarks = nullptr,
                                       const SpacingsWanted& wanted = {});
@@ -56,7 +64,7 @@ RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& n
 /// power -1/4, the largest 1. Only the proportions count. For an MPAS mesh, "meshDensity" are the
 /// densities of its cells.
 RONDEL_API SizeFunction read_density(const FileName& file, const std::string& name,
-                                     std::size_t steps = SizeFunction::usual_steps,
+                                     const SizeRaster& raster = SizeFunction::usual_steps,
                                      const Execution& execution = {},
                                      std::vector<std::string>* remarks = nullptr,
                                      const SpacingsWanted& wanted = {});

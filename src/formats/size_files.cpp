@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Reads spacings, densities and heights of files, at places in any order, as functions on the sphere:
-// read_spacings(), read_density(), read_heights() and read_refinement().
+// read_spacings(), read_density() and read_heights().
 //
 // The places of a table are its sites; those of a netCDF field are its longitudes and latitudes, or
 // the cells of a mesh. The values are interpolated linearly on the triangulation of the places.
@@ -28,12 +28,12 @@
 #include "io/netcdf_reader.h"
 #include "io/number.h"
 #include "map/ring_area.h"
+#include "meshing/size_raster.h"
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
-#include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/read_cells.h"
 #include "rondel/triangle_files.h"
@@ -367,18 +367,62 @@ void remark_on_reach(const LinearValues& values, std::span<const Point> corners,
   remarks->emplace_back(text.data());
 }
 
-// Returns the number of places whose value a function has not, by more than a fifth of it.
+// Returns true for places that count: those in the region, or all.
+std::vector<bool> are_in_region(std::span<const Point> places,
+                                const std::optional<SizeRegion>& region) {
+  std::vector<bool> are(places.size(), true);
+  if (!region) return are;
+  const PlaneRaster plane(*region, 1);
+  for (std::size_t i = 0; i < places.size(); ++i) are[i] = plane.contains(places[i]);
+  return are;
+}
+
+// Returns the number of places that count whose value a function has not, by more than a fifth of it.
 std::size_t num_lost(std::span<const Point> places, std::span<const double> values,
-                     const SizeFunction& size) {
+                     const std::vector<bool>& count, const SizeFunction& size) {
   std::size_t number = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!count[i]) continue;
     number += std::abs(size.spacing(places[i]) - values[i]) > values[i] / 5 ? 1U : 0U;
   }
   return number;
 }
 
-// Returns values at places as a function. `steps` is the resolution of SizeFunction::from_function().
-SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution,
+// Returns a raster of the region whose steps are as long as the distance of places is where they are
+// closest: in a part of 1/64 of its width and height. At least it has the steps that are given.
+SizeRaster raster_of_places(std::span<const Point> places, const SizeRaster& least) {
+  constexpr std::size_t parts = 64;
+  const SizeRegion& region = *least.region;
+  const PlaneRaster plane(region, 1);
+  std::vector<std::size_t> numbers(parts * parts, 0);
+  const auto part_of = [&](double at, double half) {
+    const double part = (at / half + 1) * (parts / 2);
+    return std::min(static_cast<std::size_t>(std::max(part, 0.0)), parts - 1);
+  };
+  for (const Point& place : places) {
+    if (!plane.contains(place)) continue;
+    const auto [x, y] = plane.on_plane(place);
+    ++numbers[part_of(y, plane.half(1)) * parts + part_of(x, plane.half(0))];
+  }
+  const auto most = static_cast<double>(std::ranges::max(numbers));
+  const double area = 4 * plane.half(0) * plane.half(1) / (parts * parts);
+  const double distance = std::sqrt(area / std::max(most, 1.0));
+  return {region, std::max(least.steps, SizeRaster::with_step(region, distance).steps)};
+}
+
+// Returns the length of the longest step, as remarks say it: "7 km".
+std::string text_of_step(const SizeRaster& raster) {
+  constexpr double radius_km = 6371.229;
+  const double km = radius_km * raster.longest_step();
+  // Steps of a face of the cube are kilometers long, and up to that.
+  if (!raster.region) return std::to_string(static_cast<int>(std::ceil(km))) + " km";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2g km", km);
+  return text.data();
+}
+
+// Returns values at places as a function on a raster.
+SizeFunction function_of(const Spacings& spacings, SizeRaster raster, const Execution& execution,
                          std::vector<std::string>* remarks, const SpacingsWanted& wanted) {
   const LinearValues values(spacings, execution, remarks);
   remark_on_reach(values, wanted.corners, remarks);
@@ -387,47 +431,36 @@ SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Exec
         [&](std::span<const Point> places, std::span<double> out) {
           std::ranges::copy(values.at(places), out.begin());
         },
-        steps);
+        raster);
   };
+  if (wanted.most_steps == 0) return made();
+  const std::size_t most = std::min(wanted.most_steps, raster.most_steps());
+  if (raster.region) {
+    raster = raster_of_places(spacings.places, raster);
+    raster.steps = std::min(raster.steps, most);
+  }
   SizeFunction size = made();
-  if (wanted.most_steps == 0) return size;
   // The first value counts at places that are repeated.
   const std::vector<double> given = values.at(spacings.places);
-  std::size_t lost = num_lost(spacings.places, given, size);
-  while (lost > 0 && steps < wanted.most_steps) {
-    steps *= 2;
+  const std::vector<bool> are_inside = are_in_region(spacings.places, raster.region);
+  std::size_t lost = num_lost(spacings.places, given, are_inside, size);
+  while (lost > 0 && raster.steps < most) {
+    raster.steps = std::min(2 * raster.steps, most);
     size = made();
-    lost = num_lost(spacings.places, given, size);
+    lost = num_lost(spacings.places, given, are_inside, size);
   }
-  // Steps are longest in the middle of a face of the cube.
-  const double longest_km = 2 * 6371.229 / static_cast<double>(steps);
   remark_on(lost, spacings.values.size(), "has", "have",
             " another spacing by more than a fifth, since spacings are kept on a raster with steps "
             "of up to " +
-                std::to_string(static_cast<int>(std::ceil(longest_km))) + " km",
+                text_of_step(raster),
             remarks);
   return size;
 }
 
 }  // namespace
 
-std::vector<Point> read_refinement(const FileName& file, double distance,
-                                   const PolygonOptions& options, const Execution& execution) {
-  std::vector<Point> points;
-  for (const std::vector<Point>& line : read_places(file, options, execution)) {
-    try {
-      const std::vector<Point> dense = densified(line, distance);
-      points.insert(points.end(), dense.begin(), dense.end());
-    } catch (const InvalidInput& error) {
-      if (error.index() == InvalidInput::no_index) throw;
-      throw FileError(file.path + ": " + error.what());
-    }
-  }
-  return points;
-}
-
 SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
-                           std::size_t steps, const Execution& execution,
+                           const SizeRaster& raster, const Execution& execution,
                            std::vector<std::string>* remarks, const SpacingsWanted& wanted) {
   Spacings spacings = spacings_of(file, name, execution);
   drop_missing(file, spacings, remarks);
@@ -442,10 +475,10 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
     }
     value *= unit;
   }
-  return function_of(spacings, steps, execution, remarks, wanted);
+  return function_of(spacings, raster, execution, remarks, wanted);
 }
 
-SizeFunction read_density(const FileName& file, const std::string& name, std::size_t steps,
+SizeFunction read_density(const FileName& file, const std::string& name, const SizeRaster& raster,
                           const Execution& execution, std::vector<std::string>* remarks,
                           const SpacingsWanted& wanted) {
   Spacings densities = spacings_of(file, name, execution);
@@ -459,7 +492,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   const double least = *std::ranges::min_element(densities.values);
   // Spacing goes with the density to the power of -1/4; the smallest density has spacing 1.
   for (double& value : densities.values) value = std::sqrt(std::sqrt(least / value));
-  return function_of(densities, steps, execution, remarks, wanted);
+  return function_of(densities, raster, execution, remarks, wanted);
 }
 
 std::vector<double> read_heights(const FileName& file, const std::string& name, Positive positive,

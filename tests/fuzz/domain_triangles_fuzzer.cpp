@@ -118,6 +118,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const bool is_coast = part == &domain.coast;
     if ((kind & (is_coast ? 1U : 2U)) != 0) part->push_back(fuzz::polygon(unit_vectors(positions)));
   }
+  if (const auto region = mesh::region_of(domain)) {
+    for (const Geometries& area : domain.area) {
+      for (const Point& corner : area.polygons.points) {
+        fuzz::require(region->contains(corner), "a region has the area");
+      }
+    }
+    if (is_spaced) options.refine.spacing = mesh::SizeFunction::constant(angle, {*region, 4});
+  }
   fuzz::test_domain(domain, options, spacing);
   return 0;
 }

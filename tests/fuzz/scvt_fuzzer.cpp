@@ -123,6 +123,37 @@ void test_sizes(ByteSource& source) {
   }
 }
 
+// Spacings on any region, of which most are refused.
+void test_region(ByteSource& source) {
+  const std::vector<Point> points = all_sites(source, 6, Scales::near);
+  const double base = 0.05 + 0.01 * source.byte();
+  const Point center = points.empty() ? Point{source.finite_double(), 0, 1} : points.front();
+  mesh::SizeRegion region{center, 0.003 * source.byte(), 0.003 * source.byte()};
+  if (source.byte() % 8 == 0) region.half_width = source.finite_double();
+  try {
+    const mesh::SizeRaster raster =
+        mesh::SizeRaster::with_step(region, 0.02 + 0.01 * source.byte());
+    require(raster.steps <= raster.most_steps() && raster.longest_step() > 0, "a raster");
+    const mesh::SizeFunction size = mesh::SizeFunction::constant(base, raster)
+                                        .refined(points, 0.04, 0.01 * source.byte())
+                                        .limited(0.01 * source.byte());
+    require(size.raster().region && size.raster().steps == raster.steps, "the same raster");
+    require(size.count() > 0 && size.smallest() > 0, "a size");
+    for (const Point& place : points) {
+      const double spacing = size.spacing(place);
+      require(spacing >= size.smallest() * (1 - 1e-6) && spacing <= size.largest() * (1 + 1e-6),
+              "a spacing");
+      (void)region.contains(place);
+    }
+    try {
+      (void)mesh::scvt({.count = 12, .size = size}, {.threads = 1});
+      require(false, "the sphere is no region");
+    } catch (const InvalidInput&) {
+    }
+  } catch (const InvalidInput&) {
+  }
+}
+
 void test_point_sets(ByteSource& source) {
   try {
     (void)mesh::icosahedral_points(static_cast<unsigned>(source.below(3)), {.threads = 1});
@@ -145,6 +176,10 @@ void test_files(std::string_view bytes) {
     }
     try {
       (void)mesh::read_spacings(path, "h", 1, 2, {.threads = 1});
+      const mesh::SizeRegion region{{1, 0, 0}, 0.3, 0.2};
+      (void)mesh::read_spacings(path, "h", 1, {region, 2}, {.threads = 1}, nullptr,
+                                {.most_steps = 64});
+      (void)mesh::read_refinement(path, 0.1, {}, {.threads = 1}, region);
     } catch (const FileError&) {
     } catch (const InvalidInput&) {
     }
@@ -178,6 +213,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rondel::fuzz::test_sites(source);
   rondel::fuzz::test_sizes(source);
   rondel::fuzz::test_point_sets(source);
+  rondel::fuzz::test_region(source);
   rondel::fuzz::test_files({reinterpret_cast<const char*>(data), size});
   return 0;
 }

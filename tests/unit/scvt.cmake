@@ -3,6 +3,7 @@
 rondel_add_test(scvt_test
   meshing/outlines_test.cpp
   meshing/equal_area_test.cpp
+  meshing/size_region_test.cpp
   meshing/size_test.cpp
   meshing/spacing_files_test.cpp
   meshing/point_sets_test.cpp
