@@ -53,37 +53,57 @@ void require_possible_count(const std::string& what, const mesh::SizeFunction& s
   throw FileError(what + text.data());
 }
 
-// The most steps of a raster, of up to 7 km.
-constexpr std::size_t most_steps = 2048;
+// The most steps of a raster of the sphere, of up to 7 km.
+constexpr std::size_t most_sphere_steps = 2048;
 
-// Chooses the raster such that in the middle of a face of the cube a step is half of the smallest
-// spacing that options give. Spacings of a file have at least the usual raster.
-std::size_t raster_steps(const ScvtFiles& options) {
+std::size_t most_steps_of(const mesh::SizeRaster& raster) {
+  return raster.region ? raster.most_steps() : most_sphere_steps;
+}
+
+// Returns the length of the longest step of the finest raster, in radians.
+double least_step_of(mesh::SizeRaster raster) {
+  raster.steps = most_steps_of(raster);
+  return raster.longest_step();
+}
+
+// Chooses the raster such that at the center of the region, or in the middle of a face of the cube, a
+// step is half of the smallest spacing that options give. On the sphere spacings of a file have at
+// least the usual raster; on a region read_spacings() finds the steps that they need.
+mesh::SizeRaster raster_of(const ScvtFiles& options,
+                           const std::optional<mesh::SizeRegion>& region) {
   const bool is_file = is_file_of_spacings(options.spacing);
   double least = is_file ? max_kilometers : std::strtod(options.spacing.c_str(), nullptr);
   for (const std::string& refinement : options.refine) {
-    least = std::min(least, std::strtod(split_at_colon(refinement).second.c_str(), nullptr));
+    const double near = std::strtod(split_at_colon(refinement).second.c_str(), nullptr);
+    if (near > 0) least = std::min(least, near);  // other texts are refused where they are used
   }
+  if (region) return mesh::SizeRaster::with_step(*region, least / (2 * kilometers_per_radian));
   std::size_t steps = is_file ? mesh::SizeFunction::usual_steps : 64;
-  while (steps < most_steps && static_cast<double>(steps) * least < 4 * kilometers_per_radian)
+  while (steps < most_sphere_steps &&
+         static_cast<double>(steps) * least < 4 * kilometers_per_radian) {
     steps *= 2;
+  }
   return steps;
 }
 
 // Tells of places of --refine whose spacing even the finest raster is too coarse for.
 void tell_of_raster(const std::string& file, const std::vector<Point>& places, double near,
                     const mesh::SizeFunction& size) {
-  if (near * static_cast<double>(most_steps) >= 4) return;  // as in raster_steps()
+  const mesh::SizeRaster raster = size.raster();
+  const double step = raster.longest_step();
+  if (near >= 2 * step) return;  // as in raster_of()
   double largest = 0;
-  for (const Point& place : places) largest = std::max(largest, size.spacing(place));
+  for (const Point& place : places) {
+    if (raster.region && !raster.region->contains(place)) continue;
+    largest = std::max(largest, size.spacing(place));
+  }
   if (largest <= 1.2 * near) return;
+  const double step_km = step * kilometers_per_radian;
   std::array<char, 200> text{};
-  std::snprintf(
-      text.data(), text.size(),
-      "--refine: the spacing there is up to %.3g kilometers, since spacings are kept on a "
-      "raster with steps of up to %.0f km",
-      largest * kilometers_per_radian,
-      std::ceil(2 * kilometers_per_radian / static_cast<double>(most_steps)));
+  std::snprintf(text.data(), text.size(),
+                "--refine: the spacing there is up to %.3g kilometers, since spacings are kept on "
+                "a raster with steps of up to %.3g km",
+                largest * kilometers_per_radian, raster.region ? step_km : std::ceil(step_km));
   tell(file, {text.data()});
 }
 
@@ -155,25 +175,28 @@ bool is_file_of_spacings(const std::string& spacing) {
 }
 
 std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Execution& execution,
+                                              const std::optional<mesh::SizeRegion>& region,
                                               std::span<const Point> corners) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
     std::vector<std::string> remarks;
     mesh::SizeFunction density =
         mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution, &remarks,
-                           {.most_steps = most_steps});
+                           {.most_steps = most_sphere_steps});
     tell(file, remarks);
     return density;
   }
   if (options.spacing.empty()) return std::nullopt;
   std::optional<mesh::SizeFunction> size;
-  if (const auto kilometers = as_kilometers("--spacing", options.spacing)) {
-    size = mesh::SizeFunction::constant(*kilometers / kilometers_per_radian, raster_steps(options));
+  const auto constant = as_kilometers("--spacing", options.spacing);
+  const mesh::SizeRaster raster = raster_of(options, region);
+  if (constant) {
+    size = mesh::SizeFunction::constant(*constant / kilometers_per_radian, raster);
   } else {
     const auto [file, name] = split_at_colon(options.spacing);
     std::vector<std::string> remarks;
-    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian, raster_steps(options),
-                               execution, &remarks, {.most_steps = most_steps, .corners = corners});
+    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian, raster, execution,
+                               &remarks, {.most_steps = most_steps_of(raster), .corners = corners});
     tell(file, remarks);
   }
   for (const std::string& refinement : options.refine) {
@@ -181,10 +204,10 @@ std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Ex
     const auto kilometers = as_kilometers("--refine", text);
     if (!kilometers) throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
     const double near = *kilometers / kilometers_per_radian;
-    // Points that are much closer than the steps of the finest raster change nothing.
-    const double distance = std::max(0.5 * near, 0.1 / static_cast<double>(most_steps));
+    // Points that are much closer than the steps of the raster change nothing.
+    const double distance = std::max(0.5 * near, 0.05 * least_step_of(raster));
     const std::vector<Point> places =
-        mesh::read_refinement({file, {}}, distance, options.polygons, execution);
+        mesh::read_refinement({file, {}}, distance, options.polygons, execution, region);
     if (std::ranges::none_of(places, [&](const Point& p) { return size->spacing(p) > near; })) {
       tell(file, {"--refine: the spacing there is " + text +
                   " kilometers or less without it, which it does not change"});

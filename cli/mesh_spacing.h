@@ -49,8 +49,10 @@ std::vector<NamedFile> files_read(const ScvtFiles& options);
 /// True if --spacing names a file, and no number of kilometers.
 bool is_file_of_spacings(const std::string& spacing);
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
+/// \param region  where the spacings are kept; none: on the whole sphere
 /// \param corners  of the polygons in which the mesh is; none: it is on the whole sphere
 std::optional<mesh::SizeFunction> spacings_of(const ScvtFiles& options, const Execution& execution,
+                                              const std::optional<mesh::SizeRegion>& region = {},
                                               std::span<const Point> corners = {});
 /// Returns the same. Throws FileError if a mesh of Voronoi cells cannot have them.
 /// \param count  the number of cells; 0: not given

@@ -181,7 +181,8 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
   if (options.tolerance_km) wanted.tolerance = *options.tolerance_km / kilometers_per_radian;
   std::vector<CellFacts> facts;
   const mesh::MeshDomain domain = read_domain(options, execution, facts);
-  wanted.refine.spacing = spacings_of(options.sizes, execution, corners_of_area(domain));
+  wanted.refine.spacing =
+      spacings_of(options.sizes, execution, mesh::region_of(domain), corners_of_area(domain));
   mesh::DomainTriangles made;
   mesh::TriangleMesh result;
   job.time(Stage::dual, [&] {
@@ -326,7 +327,10 @@ Command add_mesh_triangles_command(CLI::App& group) {
       "near places where these meet at less than 60 degrees. Coasts finer than the mesh are\n"
       "simplified first, without a change of topology. Longitudes are from -180 to 180 or in the\n"
       "turn of the input, as from 0 to 360: of --area, or else of --coast and --lines. Kilometers\n"
-      "are those of a sphere of 6371.229 km.\n\n"
+      "are those of a sphere of 6371.229 km. Spacings are kept on a raster: of a rectangle around\n"
+      "--area with steps of half of the smallest spacing or of 1/4096 of its size; without an\n"
+      "area, or for one that reaches farther than 45 degrees from its middle, of the sphere with\n"
+      "steps of 7 km or more.\n\n"
       "Examples:\n"
       "  rondel mesh triangles --coast land.geojson --spacing 200 -o ocean.msh\n"
       "  rondel mesh triangles --coast land.geojson --spacing 200 --fill-narrow 0.5 "

@@ -145,12 +145,15 @@ class Spacings(Files):
 
     def test_of_refinements_are_told_where_the_raster_is_too_coarse(self):
         (self.folder / "p.csv").write_text("lon,lat\n5,4\n")
-        arguments = ("mesh", "triangles", "--area", "box.geojson", "--spacing", "50", "-o", "d.14", "--quiet")
-        self.assertEqual(self.run_tool(*arguments, "--refine", "p.csv:20"), (0, ""))
-        status, text = self.run_tool(*arguments, "--refine", "p.csv:0.1")
+        sphere = ("mesh", "triangles", "--spacing", "2000", "-o", "d.14", "--quiet")
+        self.assertEqual(self.run_tool(*sphere, "--refine", "p.csv:20"), (0, ""))
+        status, text = self.run_tool(*sphere, "--refine", "p.csv:0.1")
         self.assertEqual(status, 0)
         self.assertRegex(text, r"\Arondel: p.csv: --refine: the spacing there is up to 0.\d+ kilometers, since spacings are "
                                r"kept on a raster with steps of up to 7 km\n\Z")
+        # An area has a raster of its own.
+        area = ("mesh", "triangles", "--area", "box.geojson", "--spacing", "50", "-o", "d.14", "--quiet")
+        self.assertEqual(self.run_tool(*area, "--refine", "p.csv:0.1"), (0, ""))
 
 
 class DepthsOfMeshes(Files):
