@@ -93,9 +93,6 @@ void add_results(nb::module_& module) {
 
 void add_mesh_make(nb::module_& module) {
   add_results(module);
-  module.def(
-      "raster_places", [](std::size_t steps) { return points_out(SizeFunction::nodes(steps)); },
-      nb::arg("steps"));
   module.def("make_scvt", &make_scvt, nb::kw_only(), nb::arg("count"),
              nb::arg("spacings").noconvert(), nb::arg("steps"), nb::arg("gradient"),
              nb::arg("mean_tolerance"), nb::arg("largest_tolerance"), nb::arg("max_steps"),

@@ -10,15 +10,22 @@
 #include <span>
 
 #include "rondel/mesh_size.h"
+#include "rondel/mesh_triangles.h"
 
 namespace rondel::python {
 
 inline constexpr std::size_t many_sites = 1U << 20U;  // from this number on, work is watched
 
+// Returns the raster of the region of an area, or else of the sphere.
+inline mesh::SizeRaster raster_of(const mesh::MeshDomain& domain, std::size_t steps) {
+  const auto region = mesh::region_of(domain);
+  return region ? mesh::SizeRaster(*region, steps) : mesh::SizeRaster(steps);
+}
+
 inline std::optional<mesh::SizeFunction> size_of(std::span<const double> spacings,
-                                                 std::size_t steps, double gradient) {
+                                                 const mesh::SizeRaster& raster, double gradient) {
   if (spacings.empty()) return std::nullopt;
-  const auto size = mesh::SizeFunction::from_nodes({spacings.begin(), spacings.end()}, steps);
+  const auto size = mesh::SizeFunction::from_nodes({spacings.begin(), spacings.end()}, raster);
   return gradient > 0 ? size.limited(gradient) : size;
 }
 

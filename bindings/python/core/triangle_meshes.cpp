@@ -123,7 +123,6 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
     double smallest_angle, double fill_narrow, double smallest_part, double west_deg,
     unsigned threads, const nb::object& listener) {
   mesh::TrianglesOptions options;
-  options.refine.spacing = size_of(rows_of<double>(spacings), steps, gradient);
   options.refine.smallest_angle_deg = smallest_angle;
   options.fill_narrow = fill_narrow;
   options.smallest_part = smallest_part;
@@ -134,10 +133,18 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
   if (coast.size() > 0) domain.coast.push_back(coast);
   if (area != nullptr) domain.area.push_back(*area);
   if (lines.size() > 0) domain.lines.push_back(lines);
+  options.refine.spacing = size_of(rows_of<double>(spacings), raster_of(domain, steps), gradient);
   return watched(many_sites, threads, listener, [&](const Execution& execution) {
     const mesh::DomainTriangles made = mesh::triangles(domain, options, execution);
     return std::tuple(mesh::triangle_mesh(made), made.mesh.report.num_too_small);
   });
+}
+
+// Returns the places where the spacing of a mesh is looked at; a null area is the sphere.
+ArrayOut<double> raster_places(std::size_t steps, const Geometries* area) {
+  mesh::MeshDomain domain;
+  if (area != nullptr) domain.area.push_back(*area);
+  return points_out(mesh::SizeFunction::nodes(raster_of(domain, steps)));
 }
 
 }  // namespace
@@ -173,6 +180,7 @@ void add_triangle_meshes(nb::module_& module) {
              nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("weld").none(),
              nb::arg("smallest_angle"), nb::arg("fill_narrow"), nb::arg("smallest_part"),
              nb::arg("west_deg"), nb::arg("threads"), nb::arg("progress").none());
+  module.def("raster_places", &raster_places, nb::arg("steps"), nb::arg("area").none());
   module.def("read_triangles", &triangles_of_file, nb::arg("path"), nb::arg("format"),
              nb::arg("threads"));
 }

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -127,13 +127,13 @@ def slope_of(gradient: float | None) -> float:
     return float(gradient)
 
 
-def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
-    """The spacings at the nodes of the raster; empty where all are the same and not given."""
+def raster_of(spacing: Spacing | None, steps: int, area: Any = None) -> FloatArray:
+    """The spacings at the nodes of the raster of an area; empty where none is given."""
     if spacing is None:
         return np.empty(0)
     if isinstance(spacing, str | bytes | bool | np.bool_):
         raise TypeError(f"spacing is {spacing!r}, neither a number nor a function of places")
-    places = _core.raster_places(steps)
+    places = _core.raster_places(steps, area)
     if not callable(spacing):
         return np.full(len(places), float(spacing))
     values = as_floats(spacing(frozen(places)), "spacing")

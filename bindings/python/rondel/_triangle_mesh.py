@@ -393,8 +393,10 @@ def triangles(
         A function of the nodes, float64 of shape (n, 3), that returns the depths there in metres,
         positive down.
     raster_steps : int, optional
-        The function of the spacing is sampled at this many places along a quarter of a great
-        circle, a power of two.
+        The function of the spacing is sampled at this many places along the longer side of a
+        rectangle around `area`, as far as 16 million places in all; without an area, or for one
+        that reaches farther than 45 degrees from its middle, along a quarter of a great circle, a
+        power of two. By default 1024.
     edges : {'lonlat', 'geodesic'}, optional
         What joins the positions of geometries: straight lines in longitude and latitude (default),
         or arcs of great circles.
@@ -465,7 +467,7 @@ def triangles(
         **parts,
         # A missing area is the sphere, and an area without features is none.
         area=None if area is None else within,
-        spacings=raster_of(spacing, steps),
+        spacings=raster_of(spacing, steps, None if area is None else within),
         steps=steps,
         gradient=slope_of(gradient),
         tolerance=None if tolerance is None else float(tolerance),

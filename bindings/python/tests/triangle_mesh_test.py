@@ -152,6 +152,53 @@ def test_an_ocean_has_the_spacing_and_the_angles():
     same(pickle.loads(pickle.dumps(mesh)), mesh)
 
 
+@pytest.mark.parametrize(
+    ("west", "south"), [(2, 40), (179, -17), (-180, 89)], ids=["inland", "antimeridian", "pole"]
+)
+def test_a_small_area_has_spacings_as_small(west, south):
+    shapely = pytest.importorskip("shapely")
+    size = 360 if south == 89 else 2
+    area = shapely.box(west, south, west + size, min(south + 2, 90))
+    kilometer = 1 / 6371.229
+    lonlat = np.radians([west + 1, south + 0.9])
+    center = np.array(
+        [
+            math.cos(lonlat[1]) * math.cos(lonlat[0]),
+            math.cos(lonlat[1]) * math.sin(lonlat[0]),
+            math.sin(lonlat[1]),
+        ]
+    )
+    farthest = []
+
+    def spacing(places):
+        distances = np.linalg.norm(places - center, axis=1)
+        farthest.append(distances.max())
+        return np.minimum(20 * kilometer, 0.5 * kilometer + 0.1 * distances)
+
+    mesh = rondel.mesh.triangles(area=area, spacing=spacing, gradient=0.1)
+    assert max(farthest) < math.radians(3)  # the spacing is asked for around the area alone
+    ends = mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    lengths = np.linalg.norm(mesh.points[ends[:, 0]] - mesh.points[ends[:, 1]], axis=1)
+    assert (lengths <= 1.55 * spacing(mesh.points)[ends].min(axis=1)).all()
+    assert lengths.min() < 0.7 * kilometer
+
+
+def test_steps_of_the_raster_of_an_area():
+    shapely = pytest.importorskip("shapely")
+    area, places = shapely.box(0, 0, 1, 1), []
+
+    def spacing(at):
+        places.append(len(at))
+        return np.full(len(at), 0.01)
+
+    rondel.mesh.triangles(area=area, spacing=spacing, raster_steps=7)
+    assert places == [8 * 8]
+    rondel.mesh.triangles(area=shapely.box(-60, -10, 60, 10), spacing=spacing, raster_steps=8)
+    assert places[1:] == [6 * 9 * 9]
+    with pytest.raises(ValueError, match="from 1 to 4096, not 5000"):
+        rondel.mesh.triangles(area=area, spacing=spacing, raster_steps=5000)
+
+
 def test_narrow_water_is_filled_and_small_parts_are_left_out():
     shapely = pytest.importorskip("shapely")
     land = [shapely.box(8, 40, 10, 44.9), shapely.box(8, 45.1, 10, 50)]
