@@ -76,7 +76,8 @@ struct WeightComparison {
   /// One for each kind that occurs; empty if the weights are right.
   std::vector<WeightFault> faults;
   WeightNorm norm = WeightNorm::unknown;  ///< that of most rows
-  /// True for weights of second order, which depend on gradients: only sums are compared.
+  /// True for weights of second order, which depend on gradients: their sums are compared, and
+  /// whether cells with a common area have one.
   bool are_sums = false;
   std::size_t pieces = 0;  ///< pairs of cells that have an area in common
   double max_error = 0;    ///< of the differences of all weights and pieces: the largest
@@ -117,7 +118,8 @@ struct WeightComparison {
 ///    tolerance + (m + 1) 8 pi 2^-52 / A, as in check_weights(). Repeated entries are added up.
 /// 3. A cell takes part unless the mask of the file, or that of its facts(), is 0.
 /// 4. Weights of second order, by the name of the method, are sums with gradients that are not
-///    known; their sums are those of first order.
+///    known; their sums are those of first order, and so are the cells that need a weight. Others
+///    may have one.
 ///
 /// \throws InvalidInput if the numbers of cells are not those of the weights; if the method of the
 ///         file is one between places (bilinear, nearest ...) or the largest share; if the tolerance

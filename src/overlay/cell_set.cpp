@@ -130,11 +130,18 @@ const std::vector<CrossingCells>& CellSetData::overlaps(const Execution& executi
   return overlaps_;
 }
 
+std::vector<CrossingCells> CellSetData::some_overlaps(OverlapsWanted wanted,
+                                                      std::span<const std::int32_t> mask,
+                                                      const Execution& execution) const {
+  if (are_apart_) return {};
+  if (!all_whole_.empty()) return overlaps(execution);
+  return overlay::some_overlaps(subdivision_, wanted, mask, execution);
+}
+
 bool CellSetData::has_overlaps(const Execution& execution) const {
   std::call_once(is_any_overlap_known_, [&] {
     if (are_apart_) return;
-    has_any_overlap_ = all_whole_.empty() ? overlay::has_overlaps(subdivision_, execution)
-                                          : !overlaps(execution).empty();
+    has_any_overlap_ = !some_overlaps(OverlapsWanted::any, {}, execution).empty();
     if (!has_any_overlap_) std::call_once(are_overlaps_known_, [] {});
   });
   return has_any_overlap_;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "overlay/overlaps.h"
 #include "overlay/pieces.h"
 #include "overlay/prepared_grid.h"
 #include "overlay/straight_sides.h"
@@ -70,6 +71,11 @@ class CellSetData {
   // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
   // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
+  // Returns the wanted pairs without keeping them, as the function of this name in overlaps.h does,
+  // also of cells that are the whole sphere.
+  [[nodiscard]] std::vector<CrossingCells> some_overlaps(OverlapsWanted wanted,
+                                                         std::span<const std::int32_t> mask,
+                                                         const Execution& execution) const;
   // True if there are such pairs. The first call finds one, which takes less time than all of them.
   [[nodiscard]] bool has_overlaps(const Execution& execution) const;
   // Returns the cells that cross or overlap themselves, each as a pair with itself, by ascending

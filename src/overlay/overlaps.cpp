@@ -177,8 +177,12 @@ std::vector<BorderArc> sides_of(const Subdivision& cells) {
 // Finds the overlaps of one subdivision.
 class OverlapFinder {
  public:
-  OverlapFinder(const Subdivision& cells, const Execution& execution)
-      : cells_(cells), told_{.threads = execution.threads, .stop = execution.stop} {}
+  OverlapFinder(const Subdivision& cells, OverlapsWanted wanted, std::span<const std::int32_t> mask,
+                const Execution& execution)
+      : cells_(cells),
+        wanted_(wanted),
+        mask_(mask),
+        told_{.threads = execution.threads, .stop = execution.stop} {}
 
   // Finds the cells that overlap themselves.
   void find_in_themselves() {
@@ -188,17 +192,17 @@ class OverlapFinder {
     }
   }
 
-  // Finds all overlaps, or some of them if `is_one_enough`. A cell that overlaps itself is not
-  // compared with others.
-  void find(bool is_one_enough) {
+  // Finds the wanted overlaps. A cell that overlaps itself is not compared with others.
+  void find() {
     find_in_themselves();
     if (is_one_region()) return;
+    overlaps_others_.assign(cells_.num_cells(), false);
     const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
-    for (std::size_t k = 0; k < all.size() && !(is_one_enough && !found_.empty());) {
+    for (std::size_t k = 0; k < all.size() && !has_enough();) {
       std::size_t end = k;
       std::vector<Index> others;
       for (; end < all.size() && all[end].filled == all[k].filled; ++end) {
-        if (soundness_[all[end].other] != Soundness::none) others.push_back(all[end].other);
+        if (is_to_be_tested(all[end])) others.push_back(all[end].other);
       }
       system::obey_stop();
       if (soundness_[all[k].filled] == Soundness::sound) {
@@ -225,6 +229,29 @@ class OverlapFinder {
     to_rounding,  // sides cross, but no end is beyond the other side by more than rounding
     none,
   };
+
+  [[nodiscard]] bool has_enough() const {
+    return wanted_ == OverlapsWanted::any && !found_.empty();
+  }
+  [[nodiscard]] bool is_masked(Index cell) const {
+    return !mask_.empty() && mask_[cells_.names[cell]] == 0;
+  }
+  [[nodiscard]] bool is_to_be_tested(const Candidates& pair) const {
+    const auto& [filled, other] = pair;
+    if (soundness_[other] == Soundness::none || is_masked(filled) || is_masked(other)) return false;
+    if (wanted_ == OverlapsWanted::cells) {
+      return !overlaps_others_[filled] || !overlaps_others_[other];
+    }
+    const auto own = std::minmax({cells_.names[filled], cells_.names[other]});
+    return wanted_ != OverlapsWanted::first || !first_ ||
+           std::pair(own.first, own.second) < *first_;
+  }
+  void add(Index a, Index b, const Point& place) {
+    found_.push_back(named(cells_.names[a], cells_.names[b], place));
+    overlaps_others_[a] = overlaps_others_[b] = true;
+    const std::pair pair(found_.back().first, found_.back().second);
+    if (!first_ || pair < *first_) first_ = pair;
+  }
 
   // True if all cells together are one region without overlaps. The number of cells that have a
   // place changes only at sides of a single cell. If these sides are the border of a region, the
@@ -266,7 +293,9 @@ class OverlapFinder {
     const std::optional<SideConflict> conflict = side_conflict(one, told_);
     if (!conflict) return Soundness::sound;
     if (conflict->is_crossing && !has_sure_crossing(sides_of(one))) return Soundness::to_rounding;
-    found_.push_back(named(cells_.names[cell], cells_.names[cell], conflict->place));
+    if (!is_masked(cell)) {
+      found_.push_back(named(cells_.names[cell], cells_.names[cell], conflict->place));
+    }
     return Soundness::none;
   }
 
@@ -279,8 +308,7 @@ class OverlapFinder {
       if (pieces.offsets[k] == pieces.offsets[k + 1]) continue;
       const auto at = pieces.offsets[k];
       if (!(pieces.areas[at] > area_of_rounding(length_of(others[k])))) continue;
-      found_.push_back(
-          named(cells_.names[filled], cells_.names[others[k]], normalized(pieces.moments[at])));
+      add(filled, others[k], normalized(pieces.moments[at]));
     }
   }
   // Returns a bound for the length of a cell's border.
@@ -303,18 +331,21 @@ class OverlapFinder {
   }
 
   const Subdivision& cells_;
+  OverlapsWanted wanted_;
+  std::span<const std::int32_t> mask_;
   Execution told_;
   std::vector<Soundness> soundness_;
+  std::vector<bool> overlaps_others_;
   std::vector<CrossingCells> found_;
+  std::optional<std::pair<Index, Index>>
+      first_;  // of found_, without cells that overlap themselves
 };
 
 }  // namespace
 
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution) {
-  OverlapFinder finder(cells, execution);
-  finder.find(false);
-  std::vector<CrossingCells> found = finder.take();
+  std::vector<CrossingCells> found = some_overlaps(cells, OverlapsWanted::all, {}, execution);
   for (std::size_t k = 0; k < whole.size(); ++k) {
     for (std::size_t i = k + 1; i < whole.size(); ++i) {
       found.push_back(named(whole[k], whole[i], {0, 0, 1}));
@@ -329,15 +360,17 @@ std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const
   return found;
 }
 
-bool has_overlaps(const Subdivision& cells, const Execution& execution) {
-  OverlapFinder finder(cells, execution);
-  finder.find(true);
-  return !finder.take().empty();
+std::vector<CrossingCells> some_overlaps(const Subdivision& cells, OverlapsWanted wanted,
+                                         std::span<const std::int32_t> mask,
+                                         const Execution& execution) {
+  OverlapFinder finder(cells, wanted, mask, execution);
+  finder.find();
+  return finder.take();
 }
 
 std::vector<CrossingCells> cells_crossing_themselves(const Subdivision& cells,
                                                      const Execution& execution) {
-  OverlapFinder finder(cells, execution);
+  OverlapFinder finder(cells, OverlapsWanted::all, {}, execution);
   finder.find_in_themselves();
   return finder.take();
 }
@@ -357,7 +390,10 @@ namespace {
 std::string text_at(const Point& place) {
   std::array<char, 64> at{};
   const LonLat position = map::lonlat_of(place, true);
-  std::snprintf(at.data(), at.size(), " at %.4f %.4f", position.lon_deg, position.lat_deg);
+  // Without the sign of a zero.
+  const auto shown = [](double degrees) { return std::round(degrees * 1e4) / 1e4 + 0.0; };
+  std::snprintf(at.data(), at.size(), " at %.4f %.4f", shown(position.lon_deg),
+                shown(position.lat_deg));
   return at.data();
 }
 

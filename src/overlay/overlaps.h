@@ -8,7 +8,7 @@
 // index pairs: indices of the cells in the input
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -26,8 +26,20 @@ namespace rondel::overlay {
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 
-// True if any cells overlap each other or themselves. That is found faster than all pairs.
-bool has_overlaps(const Subdivision& cells, const Execution& execution);
+// Which overlaps are wanted. Of many cells within each other all pairs take long.
+enum class OverlapsWanted : std::uint8_t {
+  all,
+  any,    // one, if there are some
+  first,  // the first pair of all
+  cells,  // one or more for each cell that overlaps others
+};
+
+// Returns the wanted overlaps of cells that are not the whole sphere, and perhaps others, in
+// lexicographic order. Cells that overlap themselves are always there. The mask, by indices of the
+// input, leaves out cells for which it is 0; if it is empty, none.
+std::vector<CrossingCells> some_overlaps(const Subdivision& cells, OverlapsWanted wanted,
+                                         std::span<const std::int32_t> mask,
+                                         const Execution& execution);
 
 // Returns the cells that cross or overlap themselves by more than rounding, each as a pair of the
 // cell with itself, by ascending indices of the input.

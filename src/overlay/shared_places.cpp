@@ -89,7 +89,8 @@ OverlaySide taking_part(const CellSetData& cells, const CellFacts& facts, CellOv
   const std::vector<std::int32_t>& mask = facts.mask;
   // Each cell has its own pieces then, whatever the others have.
   if (rule == CellOverlap::each && cells.cells_crossing_themselves().empty()) return {&cells};
-  const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
+  const std::vector<CrossingCells> overlaps = cells.some_overlaps(
+      rule == CellOverlap::error ? OverlapsWanted::first : OverlapsWanted::cells, mask, execution);
   if (overlaps.empty()) return {&cells};
   const CellRings rings = unmasked(rings_of(cells), mask);
   std::vector<bool> is_cut(rings.num_cells(), false);

@@ -119,7 +119,11 @@ class WeightComparer {
   WeightComparison run() {
     find_norm();
     for (std::size_t row = 0; row < weights_.num_rows(); ++row) {
-      if (!report_.are_sums) compare_row(row);
+      if (report_.are_sums) {
+        look_for_pieces(row);
+      } else {
+        compare_row(row);
+      }
       compare_sum(row);
     }
     finish_errors();
@@ -266,6 +270,18 @@ class WeightComparer {
     found.sum = sum_of(row);
     found.exact_sum = exact_sum(row);
     report_.worst_rows.push_back(found);
+  }
+  // Of order 2 each source that overlaps the target has an entry, as of order 1; others may have one.
+  void look_for_pieces(std::size_t row) {
+    const std::uint64_t entries = weights_.offsets[row + 1] - weights_.offsets[row];
+    const double allowed = tolerance(row, entries);
+    merge(row, row, 0, [&](const ComparedWeight& compared) {
+      if (!(compared.exact > allowed)) return;
+      const auto at = std::ranges::lower_bound(entries_, compared.source, {}, &Entry::first);
+      if (at != entries_.end() && at->first == compared.source) return;
+      missing_.add("target " + std::to_string(row) + ", source " + std::to_string(compared.source),
+                   compared.given, compared.exact);
+    });
   }
   void count_error(double error) {
     ++num_compared_;

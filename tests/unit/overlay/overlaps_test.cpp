@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The library finds which cells overlap by more than rounding.
+#include "overlay/overlaps.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,6 +88,51 @@ TEST(overlay_overlaps, cells_that_are_no_regions) {
   CellRings hole_outside = cells_of_positions({large_box, {{50, 0}, {60, 9}, {60, 0}}});
   hole_outside.cells = {0, 2};
   EXPECT_EQ(pairs_of(hole_outside), (Pairs{{0, 0}}));
+}
+
+// The first overlap and those of each cell are found without the others.
+TEST(overlay_overlaps, some_are_found_without_all) {
+  for (int seed = 0; seed < 60; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    std::vector<Positions> rings;
+    for (int k = 0; k < 14; ++k) {
+      const double west = 60 * random.unit();
+      const double south = 60 * random.unit() - 30;
+      const double size = 1 + 14 * random.unit();
+      rings.push_back(
+          {{west, south}, {west + size, south}, {west + size, south + size}, {west, south + size}});
+      if (random.coin())
+        rings.back().insert(rings.back().begin() + 2, {west + size / 2, south + 1});
+    }
+    const CellRings cells = cells_of_positions(rings);
+    std::vector<std::int32_t> mask(rings.size(), 1);
+    if (seed % 2 == 1) mask[random.below(rings.size())] = 0;
+    const auto is_masked = [&](const CrossingCells& pair) {
+      return mask[pair.first] == 0 || mask[pair.second] == 0;
+    };
+    std::vector<CrossingCells> all = overlapping_cells(cells);
+    std::erase_if(all, is_masked);
+    const auto cells_of = [](const std::vector<CrossingCells>& pairs) {
+      std::set<Index> found;
+      for (const CrossingCells& pair : pairs) found.insert({pair.first, pair.second});
+      return found;
+    };
+    const overlay::Subdivision laid(cells, false, 1);
+    const auto some = [&](overlay::OverlapsWanted wanted) {
+      return overlay::some_overlaps(laid, wanted, mask, {});
+    };
+    const auto first = some(overlay::OverlapsWanted::first);
+    ASSERT_EQ(first.empty(), all.empty());
+    if (!all.empty()) {
+      EXPECT_EQ(first.front().first, all.front().first);
+      EXPECT_EQ(first.front().second, all.front().second);
+    }
+    const auto of_cells = some(overlay::OverlapsWanted::cells);
+    EXPECT_EQ(cells_of(of_cells), cells_of(all));
+    EXPECT_LE(of_cells.size(), all.size());
+    EXPECT_EQ(some(overlay::OverlapsWanted::any).empty(), all.empty());
+    EXPECT_EQ(some(overlay::OverlapsWanted::all).size(), all.size());
+  }
 }
 
 // Where one has a corner on the side of the other, the corner is off it by rounding.

@@ -288,6 +288,22 @@ TEST(weight_comparison, compares_sums_of_second_order) {
   EXPECT_EQ(kinds_of(compare(second)), Kinds{});
 }
 
+// Of cells that are symmetric, sums of rows in reverse order are right.
+TEST(weight_comparison, looks_for_pieces_of_second_order) {
+  const CellSet source = CellSet::lonlat_grid(GlobalGrid{8, 4});
+  const CellSet target = CellSet::lonlat_grid(GlobalGrid{12, 6});
+  WeightFile file = weight_file(remap(source, target, {.order = 2}));
+  EXPECT_EQ(compare_weights(file, source, target).faults.size(), 0U);
+  std::vector<Index> rows(target.num_cells());
+  for (Index j = 0; j < rows.size(); ++j) rows[rows.size() - 1 - j] = j;
+  std::vector<Index> columns(source.num_cells());
+  for (Index i = 0; i < columns.size(); ++i) columns[i] = i;
+  file.weights = renumbered(file.weights, rows, rows.size(), columns, columns.size());
+  const WeightComparison found = compare_weights(file, source, target);
+  EXPECT_LE(found.row_sums, 1e-13);
+  EXPECT_GT(found.count("missing piece"), 50U);
+}
+
 TEST(weight_comparison, allows_what_the_tolerance_says) {
   WeightFile file = right_weights("destarea");
   file.weights.values[9] += 1e-7;
