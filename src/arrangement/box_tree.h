@@ -34,6 +34,18 @@ struct SpaceBox {
     }
     return num_overlapping == 6;
   }
+  [[nodiscard]] bool contains(const SpaceBox& other) const {
+    bool is_within = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      is_within = is_within && low[i] <= other.low[i] && other.high[i] <= high[i];
+    }
+    return is_within;
+  }
+  [[nodiscard]] double squared_diagonal() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += (high[i] - low[i]) * (high[i] - low[i]);
+    return sum;
+  }
   void widen(double reach) {
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] -= reach;

@@ -144,7 +144,7 @@ GridOfFile grid_by(const io::NetcdfReader& reader, const GridMapping& attributes
   const auto has = [&](std::uint64_t length) {
     return std::ranges::count(reader.dimensions(), length, &io::NetcdfDimension::size) != 0;
   };
-  const GridOfFile passed_over{
+  GridOfFile passed_over{
       .name = {},
       .why_not =
           (owner.empty() ? "its attributes name"

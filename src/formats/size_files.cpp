@@ -396,7 +396,7 @@ SizeRaster raster_of_places(std::span<const Point> places, const SizeRaster& lea
   const PlaneRaster plane(region, 1);
   std::vector<std::size_t> numbers(parts * parts, 0);
   const auto part_of = [&](double at, double half) {
-    const double part = (at / half + 1) * (parts / 2);
+    const double part = (at / half + 1) / 2 * static_cast<double>(parts);
     return std::min(static_cast<std::size_t>(std::max(part, 0.0)), parts - 1);
   };
   for (const Point& place : places) {

@@ -22,10 +22,17 @@ namespace rondel::meshing {
 // Returns nothing if arcs meet in corners alone.
 std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execution& execution);
 
+// True if two rings of the first polygons, up to before `end`, have a corner in common, or one ring
+// has it twice.
+bool have_common_corners(const CellRings& polygons, std::size_t end);
+
 // Leaves out the rings that vanish when the features are simplified as they are. Where a ring
-// crosses others its corners at the crossings would keep it, however small it is.
-Geometries without_small_rings(const Geometries& all, const SimplifyOptions& options,
-                               const Execution& execution);
+// crosses others its corners at the crossings would keep it, however small it is. A ring that touches
+// others, whose corners there would keep it, vanishes also if it would alone: one of the first
+// polygons, up to before `end_of_united`, which have been united, or one that touches rings of its
+// polygon only.
+Geometries without_small_rings(const Geometries& all, std::size_t end_of_united,
+                               const SimplifyOptions& options, const Execution& execution);
 
 // Gives the polygons of the features from `begin` to before `end` to the first of these, as one.
 void unite_polygons(std::size_t begin, std::size_t end, Geometries& all,

@@ -188,11 +188,14 @@ class TrianglesOfDomain {
   // there: so coasts, borders and lines keep their topology.
   void simplify_by(const SimplifyOptions& simplify) {
     weld_features();
-    if (meshing::meeting_in_corners(all_, execution_)) {
+    const bool is_meeting = meshing::meeting_in_corners(all_, execution_).has_value();
+    if (is_meeting || meshing::have_common_corners(all_.polygons, end_of_area_)) {
       meshing::unite_polygons(0, end_of_coast_, all_, execution_);
-      meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
+      // Borders within an area that is not united stay.
+      if (is_meeting) meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
       take_whole();
-      all_ = meshing::without_small_rings(all_, simplify, execution_);
+      all_ = meshing::without_small_rings(all_, is_meeting ? end_of_area_ : end_of_coast_, simplify,
+                                          execution_);
       take_whole();
       if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
     }

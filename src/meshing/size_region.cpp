@@ -18,6 +18,7 @@
 #include "exact/angles.h"
 #include "map/ring_area.h"
 #include "meshing/size_raster.h"
+#include "overlay/single_cells.h"
 #include "rondel/error.h"
 #include "rondel/mesh_triangles.h"
 #include "system/arithmetic.h"
@@ -161,10 +162,7 @@ bool has_outside(const CellRings& polygons) {
   for (std::size_t cell = 0; cell < polygons.num_cells(); ++cell) {
     std::vector<std::vector<Point>> rings;
     for (std::uint64_t ring = polygons.cells[cell]; ring < polygons.cells[cell + 1]; ++ring) {
-      std::vector<Point>& places = rings.emplace_back();
-      for (const Index corner : polygons.corners_of(ring)) {
-        places.push_back(polygons.points[corner]);
-      }
+      rings.push_back(overlay::points_of_ring(polygons, ring));
     }
     if (map::areas_on_left(rings) < 0) return true;
   }

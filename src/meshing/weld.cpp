@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -17,11 +18,11 @@
 
 #include "arrangement/arc_contacts.h"
 #include "arrangement/box_tree.h"
+#include "arrangement/even_odd.h"
 #include "exact/point_order.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/single_cells.h"
-#include "rondel/set_operations.h"
 #include "system/distinct.h"
 
 namespace rondel::meshing {
@@ -74,16 +75,18 @@ class Weld {
                       [](const PlaceOnRow& at) { return std::tuple(at.site, at.row, at.along); });
   }
 
-  void run() {
+  // Returns true if anything has changed.
+  bool run() {
     unite_sites();
     for (Index& number : numbers_) number = places_[number];
     for_each_row([&](std::uint64_t begin, std::uint64_t end, bool is_ring) {
       add_sides(begin, end, is_ring);
     });
     find_sites_on_sides();
-    if (num_united_ == 0 && on_sides_.empty() && !has_tiny_ring()) return;
+    if (num_united_ == 0 && on_sides_.empty() && !has_tiny_ring()) return false;
     FeatureLines lines = welded_lines();
     features_ = {std::move(lines), welded_polygons()};
+    return true;
   }
 
  private:
@@ -280,40 +283,103 @@ class Weld {
     return made;
   }
 
+  // A ring before and after.
+  struct WeldedRing {
+    std::vector<Point> given;
+    std::vector<Point> points;  // none: it vanishes
+  };
+
   // A polygon that changes is repaired, as parts of it that are narrower than the weld may overlap.
   CellRings welded_polygons() {
     CellRings made;
     const CellRings& polygons = features_.polygons;
     for (std::size_t i = 0; i < polygons.num_cells(); ++i) {
-      CellRings one;
-      std::vector<std::vector<Point>> all;
-      bool is_changed = false;
+      std::vector<WeldedRing> rings;
       for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
-        all.push_back(overlay::points_of_ring(polygons, r));
-        is_changed = take_next_ring(r, all.back(), one) || is_changed;
+        rings.push_back(next_ring(r));
       }
-      if (one.corners.empty() && map::areas_on_left(all) < 0) one.whole.push_back(0);
-      one.end_cell();
-      append_cell(is_changed ? repaired(one, {.threads = 1}) : one, made);
+      drop_what_is_within(rings);
+      const bool is_changed = std::ranges::any_of(
+          rings, [](const WeldedRing& ring) { return ring.points != ring.given; });
+      const CellRings one = polygon_of(rings);
+      append_cell(is_changed && !one.corners.empty() ? repaired_polygon(one, rings) : one, made);
     }
     return made;
   }
-  // Appends the next ring, whose points were `given`, if something of it is left. Returns true if it
-  // has changed.
-  bool take_next_ring(std::uint64_t number, const std::vector<Point>& given, CellRings& one) {
+  // The direction of rings of which little is left may be wrong; so a place opposite to them says
+  // what is inside.
+  static CellRings repaired_polygon(const CellRings& one, const std::vector<WeldedRing>& rings) {
+    constexpr double least_cosine = 0.2;  // of 78 degrees
+    exact::Vector3<double> sum{};
+    std::vector<std::vector<Point>> given;
+    for (const WeldedRing& ring : rings) {
+      given.push_back(ring.given);
+      for (const Point& p : ring.given) sum = sum + exact::to_vector(p);
+    }
+    std::optional<arrangement::KnownPlace> known;
+    const Point middle = exact::to_point(normalized(sum));
+    const bool are_near = std::ranges::all_of(given, [&](const std::vector<Point>& ring) {
+      return std::ranges::all_of(ring,
+                                 [&](const Point& p) { return dot(p, middle) > least_cosine; });
+    });
+    if (are_near) {
+      known = {Point{-middle.x, -middle.y, -middle.z}, given.front().front(),
+               map::areas_on_left(given) < 0};
+    }
+    return arrangement::even_odd_union(one, std::span(&known, 1), {.threads = 1});
+  }
+  WeldedRing next_ring(std::uint64_t number) {
     const std::uint64_t first = features_.lines.rows.values.size();
     const auto& rings = features_.polygons.rings;
     const std::vector<Index> sites =
         next_chain(first + rings[number], first + rings[number + 1], true);
-    const std::vector<Point> points = points_of(sites);
-    if (points.size() < 3 || is_tiny(sites) || is_inverted(points, given)) return true;
-    std::vector<Index> ring;
-    for (const Point& p : points) {
-      ring.push_back(static_cast<Index>(one.points.size()));
-      one.points.push_back(p);
+    WeldedRing ring{overlay::points_of_ring(features_.polygons, number), points_of(sites)};
+    if (sites.size() < 3 || is_tiny(sites) || is_inverted(ring.points, ring.given)) {
+      ring.points.clear();
     }
-    one.append_ring(ring);
-    return !std::ranges::equal(points, given);
+    return ring;
+  }
+  // Drops the rings around which a ring vanishes: a lake does with its island.
+  static void drop_what_is_within(std::vector<WeldedRing>& rings) {
+    std::vector<arrangement::SpaceBox> boxes;
+    for (const WeldedRing& ring : rings) {
+      if (!ring.points.empty() || ring.given.empty()) continue;
+      boxes.push_back(box_around_ring(ring.given));
+      // Between corners the sphere is higher than their box.
+      boxes.back().widen(boxes.back().squared_diagonal() + rounding_of_places);
+    }
+    if (boxes.empty()) return;
+    const BoxTree tree(
+        boxes.size(), [&](std::size_t i) { return boxes[i]; }, 1);
+    for (WeldedRing& ring : rings) {
+      if (ring.points.empty()) continue;
+      const arrangement::SpaceBox own = box_around_ring(ring.given);
+      bool is_within = false;
+      tree.visit(own, [&](Index i) { is_within = is_within || boxes[i].contains(own); });
+      if (is_within) ring.points.clear();
+    }
+  }
+  static arrangement::SpaceBox box_around_ring(std::span<const Point> ring) {
+    arrangement::SpaceBox box = arrangement::empty_box;
+    for (const Point& p : ring) box.include(box_around(p, 0));
+    return box;
+  }
+  static CellRings polygon_of(const std::vector<WeldedRing>& rings) {
+    CellRings one;
+    std::vector<std::vector<Point>> given;
+    for (const WeldedRing& ring : rings) {
+      given.push_back(ring.given);
+      if (ring.points.empty()) continue;
+      std::vector<Index> corners;
+      for (const Point& p : ring.points) {
+        corners.push_back(static_cast<Index>(one.points.size()));
+        one.points.push_back(p);
+      }
+      one.append_ring(corners);
+    }
+    if (one.corners.empty() && map::areas_on_left(given) < 0) one.whole.push_back(0);
+    one.end_cell();
+    return one;
   }
   static void append_cell(const CellRings& one, CellRings& all) {
     const auto first = static_cast<Index>(all.points.size());
@@ -345,7 +411,10 @@ class Weld {
 }  // namespace
 
 void weld(Geometries& features, const std::function<double(const Point&)>& near_at) {
-  Weld(features, near_at).run();
+  // Sides that have moved may come near to other corners, and repaired polygons have new ones.
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds && Weld(features, near_at).run(); ++round) {
+  }
 }
 
 }  // namespace rondel::meshing

@@ -23,11 +23,11 @@ inline constexpr double rounding_of_places = 1e-12;
 
 // `near_at` returns a distance on the unit sphere. Places that stay keep their coordinates. Places of
 // one line or ring are welded only where the way along it is more than eight times as long, or they
-// are as near as rounding_of_places. A ring
-// vanishes of which no three corners are left, or all are near one of them, and a small one that
-// would be turned inside out; a line of which one point is left becomes that point. Polygons that
-// have changed are repaired (rondel/set_operations.h), each by itself; those without rings that had
-// the outside of these are the whole sphere.
+// are as near as rounding_of_places. A ring vanishes of which no three corners are left, or all are
+// near one of them, and a small one that would be turned inside out; and so do rings of its polygon
+// that are within it. A line of which one point is left becomes that point. Polygons that have
+// changed are repaired (rondel/set_operations.h), each by itself; those without rings that had the
+// outside of these are the whole sphere.
 // Precondition: no polygon is the whole sphere.
 void weld(Geometries& features, const std::function<double(const Point&)>& near_at);
 

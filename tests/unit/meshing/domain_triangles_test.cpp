@@ -279,10 +279,30 @@ TEST(domain_triangles, small_islands_are_not_turned_inside_out) {
       const double radius = weld_deg * (0.5 + 2.5 * random.unit());
       rock.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
-    const Geometries island = polygon({rock});
-    EXPECT_EQ(triangles({{island}, {sea}, {}}, options).mesh.triangles.size(), expected) << run;
-    EXPECT_EQ(triangles({{}, {sea, island}, {}}, options).mesh.triangles.size(), expected) << run;
+    Ring lake;
+    for (const LonLat& p : rock) lake.insert(lake.begin(), {0.9 * p.lon_deg, 0.9 * p.lat_deg});
+    for (const Geometries& island : {polygon({rock}), polygon({rock, lake})}) {
+      EXPECT_EQ(triangles({{island}, {sea}, {}}, options).mesh.triangles.size(), expected) << run;
+      EXPECT_EQ(triangles({{}, {sea, island}, {}}, options).mesh.triangles.size(), expected) << run;
+    }
   }
+}
+
+// Small islands vanish also where they touch each other, the land or the border.
+TEST(domain_triangles, small_islands_that_touch_vanish) {
+  const Geometries sea = polygon({box(-9, -8, 9, 8)});
+  const Geometries land = polygon({box(2, 2, 6, 6)});
+  TrianglesOptions options = spaced(4);
+  options.tolerance.reset();
+  const auto number = [&](const std::vector<Geometries>& coast) {
+    return triangles({coast, {sea}, {}}, options).mesh.triangles.size();
+  };
+  const std::size_t without = number({});
+  EXPECT_EQ(number({polygon({box(0, 0, 0.1, 0.1)}), polygon({box(0.1, 0, 0.2, 0.1)})}), without);
+  EXPECT_EQ(number({polygon({box(0, 0, 0.1, 0.1)}), polygon({box(0.1, 0.1, 0.2, 0.2)})}), without);
+  EXPECT_EQ(number({polygon({{{9, 0}, {8.9, 0.1}, {8.9, -0.1}}})}), without);
+  EXPECT_EQ(number({land, polygon({box(1.9, 1.9, 2, 2)})}), number({land}));
+  EXPECT_EQ(number({land, polygon({box(1.9, 3, 2, 3.1)})}), number({land}));
 }
 
 // Strips that overlap are one land, which is wide.
