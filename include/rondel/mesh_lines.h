@@ -49,7 +49,9 @@ RONDEL_API LineSites sites_along(std::span<const std::vector<Point>> lines,
 /// 1. A line is given as for sites_along(). Its first point is a site, and if it is not closed its
 ///    last one is; the steps between are stretched or shortened to fit. Details of a line within a
 ///    spacing are ignored.
-/// 2. A line of one point, or of points in one place, is a site in any case, wherever others are.
+/// 2. A line of one point, or of points whose directions are within 1e-10 of that of the first one,
+///    is a site there in any case, wherever others are. Two such lines in one place are two sites,
+///    which ScvtOptions::fixed refuses.
 /// 3. Places on lines are left out if they are nearer than 0.7 spacings to such a point, to a place
 ///    of a longer line, or to an earlier place of the same line.
 /// \throws InvalidInput as sites_along() does.

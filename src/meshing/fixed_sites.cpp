@@ -18,15 +18,6 @@ namespace {
 // KineticDelaunay accepts lengths within 3 * 2^-53 of 1; the square adds a rounding error.
 bool is_unit(const Point& p) { return std::abs(dot(p, p) - 1) <= 4 * 0x1p-53; }
 
-// Returns the places as unit vectors; those that are unit vectors already stay bit by bit.
-std::vector<Point> kept_units(std::span<const Point> places) {
-  std::vector<Point> units = unit_places(places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (is_unit(places[i])) units[i] = places[i];
-  }
-  return units;
-}
-
 // Throws InvalidInput if two places have the same direction, or get the same unit vector by
 // rounding.
 void require_apart(std::span<const Point> places, unsigned threads) {
@@ -58,6 +49,14 @@ std::vector<Point> unit_places(std::span<const Point> places) {
     result.push_back(exact::to_point(normalized(scaled(exact::to_vector(p)))));
   }
   return result;
+}
+
+std::vector<Point> kept_units(std::span<const Point> places) {
+  std::vector<Point> units = unit_places(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (is_unit(places[i])) units[i] = places[i];
+  }
+  return units;
 }
 
 std::vector<Index> take_nearest(std::vector<Point>& sites, std::span<const Point> places,

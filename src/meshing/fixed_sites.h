@@ -22,6 +22,9 @@ void require_places(std::span<const Point> places, const char* what);
 // Returns the places as unit vectors.
 std::vector<Point> unit_places(std::span<const Point> places);
 
+// Returns the places as unit vectors; those that are unit vectors already stay bit by bit.
+std::vector<Point> kept_units(std::span<const Point> places);
+
 // Moves a site to each place, in their order: the nearest site that has not been taken yet. Returns
 // the indices of the sites. Throws InvalidInput if two places are the same. Precondition: there are
 // no more places than sites, and all sites are unit vectors.

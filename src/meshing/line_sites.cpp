@@ -109,11 +109,18 @@ class LineWalk {
   const SizeFunction& size_;
 };
 
-// True if a line returns to its first point.
+// Positions that are so close count as one, as for corners in files.
+constexpr double same_place = 1e-10;
+
+// True if a line of unit vectors returns to its first point.
 bool is_closed(const std::vector<Point>& line) {
-  // Positions that are so close count as one, as for corners in files.
-  constexpr double same_place = 1e-10;
   return line.size() > 3 && norm(line.front() - line.back()) < same_place;
+}
+
+// True if a line of unit vectors does not leave its first point.
+bool is_one_place(const std::vector<Point>& line) {
+  return std::ranges::all_of(
+      line, [&line](const Point& p) { return norm(p - line.front()) < same_place; });
 }
 
 // Returns stations with a step of about `step` spacings such that their number is a multiple of
@@ -240,24 +247,33 @@ struct WalkedLine {
   bool closed;
 };
 
-// Walks along each line of two or more points with the steps that `stations_of` finds. The longest
-// lines come first.
+struct WalkedLines {
+  std::vector<WalkedLine> walked;    // the longest lines come first
+  std::vector<Point> single_places;  // first points, as given, of lines that are in one place each
+};
+
+// Walks along each line of more places than one with the steps that `stations_of` finds.
 template <class StationsOf>
-std::vector<WalkedLine> walked_lines(std::span<const std::vector<Point>> lines,
-                                     const SizeFunction& size, const StationsOf& stations_of) {
-  std::vector<WalkedLine> walked;
+WalkedLines walked_lines(std::span<const std::vector<Point>> lines, const SizeFunction& size,
+                         const StationsOf& stations_of) {
+  WalkedLines result;
+  auto& [walked, single_places] = result;
   std::size_t left = max_sites;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     require_line(lines[i], i);
     const std::vector<Point> line = line_of_units(lines[i], i);
-    if (line.size() < 2) continue;
+    if (is_one_place(line)) {
+      // Unit vectors of points of one direction may differ by rounding.
+      if (!line.empty()) single_places.push_back(lines[i].front());
+      continue;
+    }
     const bool closed = is_closed(line);
     walked.push_back({stations_of(LineWalk(line, size), line, closed, left), closed});
     left -= std::min(left, walked.back().stations.places.size());
   }
   std::ranges::stable_sort(walked, std::greater(),
                            [](const WalkedLine& one) { return one.stations.places.size(); });
-  return walked;
+  return result;
 }
 
 }  // namespace
@@ -272,7 +288,8 @@ LineSites sites_along(std::span<const std::vector<Point>> lines, const SizeFunct
                   : walk.walk(half_step, most);
   };
   LineCandidates candidates;
-  for (const WalkedLine& one : walked_lines(lines, size, stations_of)) {
+  const WalkedLines found = walked_lines(lines, size, stations_of);
+  for (const WalkedLine& one : found.walked) {
     if (one.stations.places.size() > 1) add_rows(one.stations, one.closed, candidates);
   }
   return sites_apart(candidates, execution);
@@ -289,18 +306,20 @@ LineSites sites_on(std::span<const std::vector<Point>> lines, const SizeFunction
       stations.spacings.push_back(size.spacing(place));
     };
     if (stations.places.empty()) add(line.front());
-    if (!closed) add(line.back());
+    if (closed) return stations;
+    // Where no stretch fits, the last stations give way to the end.
+    const double near = min_site_distance * size.spacing(line.back());
+    while (stations.places.size() > 1 && norm(stations.places.back() - line.back()) < near) {
+      stations.places.pop_back();
+      stations.spacings.pop_back();
+    }
+    add(line.back());
     return stations;
   };
   LineCandidates candidates;
-  const std::vector<WalkedLine> walked = walked_lines(lines, size, stations_of);
-  for (const std::vector<Point>& line : lines) {
-    if (line.empty() || !std::ranges::all_of(line, [&](const Point& p) { return p == line[0]; })) {
-      continue;
-    }
-    candidates.sites.push_back(line.front());
-    candidates.spacings.push_back(size.spacing(line.front()));
-  }
+  const auto [walked, single_places] = walked_lines(lines, size, stations_of);
+  candidates.sites = kept_units(single_places);
+  for (const Point& site : candidates.sites) candidates.spacings.push_back(size.spacing(site));
   candidates.num_certain = candidates.sites.size();
   for (const auto& [stations, closed] : walked) {
     candidates.sites.insert(candidates.sites.end(), stations.places.begin(), stations.places.end());

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "exact/vector.h"
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "rondel/error.h"
@@ -25,6 +26,33 @@ namespace {
 const ScratchFolder& scratch() {
   static const ScratchFolder made;
   return made;
+}
+
+Point unit(const Point& p) { return normalized(scaled(p)); }
+
+double away(const Point& a, const Point& b) { return norm(a - b); }
+
+// Points are sites first of all, and each line that is not empty has a site at its first point or nearer to it than the
+// distance within which places are left out.
+void test_sites_on(const std::vector<std::vector<Point>>& lines) {
+  constexpr double spacing = 0.2;
+  constexpr double near = 0.7 * spacing + 1e-9;
+  const std::vector<Point> sites =
+      mesh::sites_on(lines, mesh::SizeFunction::constant(spacing, 1), {.threads = 1}).sites;
+  std::size_t num_points = 0;
+  for (const std::vector<Point>& line : lines) {
+    if (line.empty()) continue;
+    const Point first = unit(line.front());
+    require(std::ranges::any_of(sites, [&](const Point& p) { return away(p, first) < near; }),
+            "a site on each line");
+    const bool is_point = std::ranges::all_of(
+        line, [&first](const Point& p) { return away(unit(p), first) < 1e-12; });
+    if (!is_point) continue;
+    require(num_points < sites.size() && away(sites[num_points], first) < 1e-15,
+            "a point is a site as it is");
+    ++num_points;
+  }
+  for (const Point& p : sites) require(std::abs(dot(p, p) - 1) < 1e-15, "sites are unit vectors");
 }
 
 // Some sites stay, of which each is found where it was put; rows beside a line through all.
@@ -46,9 +74,7 @@ void test_fixed(const std::vector<Point>& sites) {
         mesh::sites_along(lines, mesh::SizeFunction::constant(0.2, 1), {.threads = 1});
     (void)mesh::scvt({.count = rows.sites.size() + 60, .max_iterations = 1, .fixed = rows.sites},
                      {.threads = 1});
-    const mesh::LineSites on =
-        mesh::sites_on(lines, mesh::SizeFunction::constant(0.2, 1), {.threads = 1});
-    require(on.sites.empty() == (sites.empty() && some.empty()), "a site on each line");
+    test_sites_on(lines);
   } catch (const InvalidInput& error) {
     require(error.index() < 2 || error.index() == InvalidInput::no_index, "the index of a line");
   }

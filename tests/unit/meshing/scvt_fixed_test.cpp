@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -385,6 +386,47 @@ TEST(mesh_lines, points_are_sites_as_they_are_and_lines_keep_away) {
   std::vector<Point> islet;
   for (int k = 0; k <= 8; ++k) islet.push_back(on_curve(std::numbers::pi * (k % 8) / 4, 0.005));
   EXPECT_EQ(sites_on(Lines{islet}, size).sites.size(), 1U);
+}
+
+// Points of other lengths, of which some round to other unit vectors, and some whose unit vectors are one: each line is a
+// point, beside which a line gives way.
+TEST(mesh_lines, points_in_one_direction_are_one_place) {
+  const SizeFunction size = SizeFunction::constant(0.2, 16);
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(sites_on(Lines{{{1, 0, -2 * least}, {0x1p376, 0, 0}}}, size).sites,
+            (std::vector<Point>{{1, 0, -2 * least}}));
+  test::Random random(5);
+  for (int k = 0; k < 200; ++k) {
+    const Point p = test::random_direction(random);
+    const Point near = normalized(p + 1e-2 * test::random_direction(random));
+    const Lines lines = {{p, near, 2 * p}, {0x1p-600 * near, 3 * near, 0x1p900 * near}, {5 * p}};
+    const LineSites found = sites_on(lines, size);
+    ASSERT_EQ(found.sites.size(), 2U);
+    EXPECT_LT(away(found.sites[0], near), 4e-16);
+    EXPECT_LT(away(found.sites[1], p), 4e-16);
+    for (const Point& site : found.sites) EXPECT_NEAR(dot(site, site), 1, 1e-15);
+    EXPECT_TRUE(sites_along(Lines{lines[1]}, size).sites.empty());
+  }
+}
+
+// Lines on which no step fits: their corners are about a spacing apart.
+TEST(mesh_lines, sites_on_rough_lines_end_with_them) {
+  const double spacing = 0.1;
+  const SizeFunction size = SizeFunction::constant(spacing, 16);
+  test::Random random(6);
+  for (int k = 0; k < 300; ++k) {
+    std::vector<Point> line = {{1, 0, 0}};
+    for (int i = 1; i < 9; ++i) {
+      const double turn = i % 2 == 0 ? 0.03 : -0.03;
+      line.push_back(unit_vector(LonLat{i * (2 + 4 * random.unit()), turn * 90}));
+    }
+    const LineSites found = sites_on(Lines{line}, size);
+    ASSERT_FALSE(found.sites.empty());
+    EXPECT_EQ(found.sites.front(), line.front());
+    const bool is_far = std::ranges::none_of(
+        found.sites, [&](const Point& site) { return away(site, line.back()) < 0.7 * spacing; });
+    EXPECT_FALSE(is_far);
+  }
 }
 
 TEST(mesh_lines, that_are_none_are_refused) {
