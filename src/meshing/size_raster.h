@@ -45,6 +45,13 @@ struct RasterPlace {
   double t;
 };
 
+// Returns a point in the same direction of which no product over- or underflows; nearly all points
+// are that already.
+inline Point moderate(const Point& p) {
+  const double largest = largest_coordinate(p);
+  return largest > 0x1p-400 && largest < 0x1p400 ? p : scaled(p);
+}
+
 // A raster with `steps` squares along each edge of the cube.
 struct CubeRaster {
   std::size_t steps;
@@ -86,7 +93,8 @@ struct CubeRaster {
   }
 
   // Returns the position of a point that is not the origin.
-  [[nodiscard]] RasterPlace spot(const Point& p) const {
+  [[nodiscard]] RasterPlace spot(const Point& place) const {
+    const Point p = moderate(place);
     const double ax = std::abs(p.x);
     const double ay = std::abs(p.y);
     const double az = std::abs(p.z);

@@ -233,7 +233,7 @@ double PlaneRaster::solid_angle() const {
 }
 
 std::array<double, 2> PlaneRaster::on_plane(const Point& p) const {
-  const exact::Vector3<double> v = exact::to_vector(p);
+  const exact::Vector3<double> v = exact::to_vector(moderate(p));
   const double along = dot(v, center_);
   const double x = dot(v, east_);
   const double y = dot(v, north_);

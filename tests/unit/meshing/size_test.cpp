@@ -166,6 +166,28 @@ TEST(mesh_size, limited_spacing_grows_slowly_everywhere) {
   }
 }
 
+// Also where numbers are so small or large that quotients or squares of them are none.
+TEST(mesh_size, spacing_depends_on_the_direction_alone) {
+  const auto wanted = [](const Point& p) { return 0.02 + 0.01 * p.y + 0.005 * p.x; };
+  const auto values = [&](std::span<const Point> at, std::span<double> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i] = wanted(at[i]);
+  };
+  const SizeRegion region{{0, -1, 0}, 0.7, 0.7};
+  const SizeFunction of_region = SizeFunction::from_function(values, SizeRaster{region, 16});
+  const SizeFunction of_sphere = SizeFunction::from_function(values, 16);
+  for (const Point& way : {Point{0, -1, 0}, Point{0.25, -1, 0.5}, Point{-0.5, -1, 0}}) {
+    for (const double length : {0x1p-1070, 0x1p-1040, 0x1p-600, 1.0, 3.0, 0x1p520, 0x1.8p1023}) {
+      const Point place = length * way;
+      for (const SizeFunction* size : {&of_region, &of_sphere}) {
+        EXPECT_NEAR(size->spacing(place), size->spacing(way), 1e-15) << length;
+        EXPECT_NEAR(size->density(place), size->density(way), 1e-12) << length;
+      }
+      EXPECT_TRUE(region.contains(place));
+      EXPECT_FALSE(region.contains({-place.x, -place.y, -place.z}));
+    }
+  }
+}
+
 // Four nodes are around each place of the cube's surface, also where a face ends; both coordinates give the place back.
 TEST(mesh_size, places_are_among_nodes_of_their_face) {
   const CubeRaster cube{8};
