@@ -235,7 +235,12 @@ std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& poi
   predicates::Vector place = point;
   if (!fits(place, h)) return {};
   const Index g = faces_[face_of(h)].opposite[edge_of(h)];
-  if (g != no_index && !fits(place, g)) {
+  const Index old = faces_[face_of(h)].segment[edge_of(h)];
+  if (segments_[old].is_cut_off) {
+    const auto inside = moved_inside(point, h);
+    if (!inside) return {};
+    place = *inside;
+  } else if (g != no_index && !fits(place, g)) {
     // Beside segments that are nearly one arc a face may be narrower than the rounding of the point.
     // Where nobody asks for it, it is cut off, and what is asked for becomes smaller, never larger.
     const auto inside = moved_inside(point, h);
@@ -245,12 +250,12 @@ std::optional<Index> RefinedFaces::divide(Index h, const predicates::Vector& poi
     faces_[face_of(g)].opposite[edge_of(g)] = no_index;
     faces_[face_of(g)].segment[edge_of(g)] = static_cast<Index>(segments_.size());
     segments_.push_back({no_index, no_index});
+    segments_[old].is_cut_off = true;
   }
   changed_.clear();
   const Index v = add_vertex(place, VertexKind::on_segment);
-  const Index old = faces_[face_of(h)].segment[edge_of(h)];
   const Index added = static_cast<Index>(segments_.size());
-  segments_.push_back({segments_[old].source, shells[1]});
+  segments_.push_back({segments_[old].source, shells[1], segments_[old].is_cut_off});
   segments_[old].shell = shells[0];
   const Index end = to(h);
   divide_faces(h, v);

@@ -33,6 +33,9 @@ struct RefinedSegment {
   Index source;  // the edge of the triangulation it is a part of; no_index: a border of regions
   // The end of that edge whose distance decides where segments are divided; no_index: their middle.
   Index shell;
+  // True if the face beyond is narrower than rounding and was cut off, so that what divides the
+  // segment must not leave it to that side.
+  bool is_cut_off = false;
 };
 
 struct RefinedFace {

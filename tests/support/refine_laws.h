@@ -60,9 +60,9 @@ class RefineLaws {
   }
 
  private:
-  // A chain leaves its constraint by the rounding of its points, which the middle of nearly opposite
-  // points magnifies.
-  static constexpr double farthest = 0x1p-50;
+  // A chain leaves its constraint by the rounding of its points, which adds up where many divisions
+  // follow each other and which the middle of nearly opposite points magnifies.
+  static constexpr double farthest = 0x1p-48;
 
   [[nodiscard]] std::string flaw_of_arrays() const {
     if (mesh_.nodes.size() != mesh_.sites.size()) return "nodes have no sites";

@@ -384,6 +384,34 @@ TEST(refine, nothing_is_asked_for) {
   EXPECT_TRUE(refine(ring, {}).triangles.empty());
 }
 
+// Two constraints with one end, whose others are in nearly one direction: nobody asks for the face between them, which is
+// narrower than rounding. The chain of one must not cross that of the other.
+TEST(refine, chains_do_not_cross_where_the_face_between_them_is_narrow) {
+  Random random(11);
+  std::size_t num_narrow = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Point p = random.direction();
+    const double factor = 5;
+    std::vector<Point> sites = {p, {factor * p.x, factor * p.y, factor * p.z}, random.direction()};
+    for (const Point& more :
+         {Point{1, 0, 0}, Point{-1, 1, 0}, Point{-1, -1, 1}, Point{-1, -1, -1}}) {
+      sites.push_back(more);
+    }
+    const auto given = constrained_delaunay(Sites(sites), std::vector<Ends>{{0, 2}, {1, 2}});
+    std::vector<Index> regions;
+    for (const Triple& face : given.triangulation.faces()) {
+      const bool is_between = std::ranges::all_of(face, [](Index v) { return v < 3; });
+      if (is_between) ++num_narrow;
+      regions.push_back(is_between ? no_index : 0);
+    }
+    const mesh::RefineOptions options{.smallest_angle_deg = 20,
+                                      .spacing = mesh::SizeFunction::constant(0.3, 4)};
+    const mesh::RefinedMesh made = refine(given, regions, options);
+    EXPECT_EQ(RefineLaws(given, regions, options, made).flaw(), "");
+  }
+  EXPECT_GT(num_narrow, 100U);
+}
+
 TEST(refine, segments_between_nearly_opposite_points_stay_in_their_plane) {
   const Point p = {0.6, 0.48, 0.64};
   for (const double away : {0x1p-20, 0x1p-40, 0x1p-51}) {
