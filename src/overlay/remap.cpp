@@ -223,7 +223,9 @@ std::vector<Point> means_of(std::span<const double> areas, std::span<const Point
 }
 
 // The moments of a source sum up to zero except for rounding, which gradients would multiply by the
-// inverse of a cell's width; the largest piece of the source is corrected by the sum.
+// inverse of a cell's width; the largest piece of the source is corrected by the sum. A piece that
+// is narrower than rounding has a moment that is rounding alone, if that would be farther away from
+// the mean than two points of the sphere are.
 std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
                                   std::vector<Point> moments) {
   std::vector<Point> sums(means.size());
@@ -234,6 +236,7 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
     prefetch_column(remap.pieces.values, k, largest);
     const Index i = remap.pieces.values[k];
     moments[k] = moments[k] - remap.areas[k] * means[i];
+    if (norm(moments[k]) > 2 * remap.areas[k]) moments[k] = {};
     sums[i] = sums[i] + moments[k];
     if (largest[i] == moments.size() || remap.areas[k] > remap.areas[largest[i]]) largest[i] = k;
   }

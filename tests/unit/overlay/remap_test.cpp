@@ -13,6 +13,7 @@
 #include <numeric>
 #include <random>
 
+#include "exact/vector.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 #include "support/thrown.h"
@@ -213,6 +214,28 @@ TEST(overlay_remap, linear_fields_with_their_gradients) {
     error_of_constant += std::abs(constant[j] - expected[j]);
   }
   EXPECT_LT(error, error_of_constant / 10);
+}
+
+// Sites so close to each other that a cell between them is narrower than the rounding of its corners.
+TEST(overlay_remap, moments_of_narrow_pieces_are_no_rounding) {
+  std::size_t num_narrow = 0;
+  for (std::uint64_t round = 0; round < 50; ++round) {
+    Random random(round);
+    const double apart = std::ldexp(1.0, -static_cast<int>(50 + random.below(50)));
+    const std::vector<Point> sites = {
+        {0, 1, 0}, {0, 1, apart}, {0, 1, -apart / 1024}, {1, 0, 0}, random.direction()};
+    const CellSet target = CellSet::voronoi(delaunay(sites));
+    const CellSet whole = CellSet::voronoi(delaunay(std::vector<Point>{{0, 1, 0}}));
+    for (const CellSet& source : {whole, voronoi_of("uniform", 12, round)}) {
+      const Remap made = remap(source, target, {.order = 2});
+      for (std::size_t k = 0; k < made.areas.size(); ++k) {
+        if (made.areas[k] > 1e-13) continue;
+        ++num_narrow;
+        EXPECT_LE(norm(made.moments[k]), 2 * made.areas[k]);
+      }
+    }
+  }
+  EXPECT_GT(num_narrow, 20U);
 }
 
 TEST(overlay_remap, onto_itself_is_the_identity) {
