@@ -86,6 +86,15 @@ void append_polygons(const TracedLines& rings, Bands& out) {
   }
 }
 
+// Returns the first value of each place. Throws InvalidInput before values are moved from their
+// sites, which a message names.
+std::vector<double> sound_values(const Triangulation& triangulation, std::span<const double> values,
+                                 std::span<const double> levels) {
+  require_values(triangulation, values);
+  require_values_and_levels(values, levels);
+  return first_values(triangulation, values);
+}
+
 }  // namespace
 
 std::vector<double> first_values(const Triangulation& triangulation,
@@ -102,7 +111,7 @@ Isolines isolines(const Triangulation& triangulation, std::span<const double> va
                   std::span<const double> levels, const Execution& execution) {
   const system::Call call(execution);
   const interpolation::ContourSurface surface = interpolation::surface_of(triangulation);
-  return interpolation::isolines_on(surface, first_values(triangulation, values), levels,
+  return interpolation::isolines_on(surface, sound_values(triangulation, values, levels), levels,
                                     execution);
 }
 
@@ -110,7 +119,8 @@ Bands bands(const Triangulation& triangulation, std::span<const double> values,
             std::span<const double> levels, const Execution& execution) {
   const system::Call call(execution);
   const interpolation::ContourSurface surface = interpolation::surface_of(triangulation);
-  return interpolation::bands_on(surface, first_values(triangulation, values), levels, execution);
+  return interpolation::bands_on(surface, sound_values(triangulation, values, levels), levels,
+                                 execution);
 }
 
 namespace interpolation {

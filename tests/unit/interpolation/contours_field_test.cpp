@@ -234,5 +234,14 @@ TEST(contours, of_values_that_hardly_differ_and_that_are_huge) {
   }
 }
 
+TEST(contours, infinite_values_are_named_where_they_are_given) {
+  const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}, {2, 0, 0}};
+  const std::vector<double> values = {std::nan(""), 0, 1, 2, HUGE_VAL};
+  const Triangulation t = delaunay(sites);
+  const std::vector<double> levels = {0.5};
+  EXPECT_EQ(thrown_index([&] { return isolines(t, values, levels); }), 4U);
+  EXPECT_EQ(thrown_index([&] { return bands(t, values, levels); }), 4U);
+}
+
 }  // namespace
 }  // namespace rondel::test
