@@ -108,15 +108,15 @@ class TouchingRings {
     }
   }
   [[nodiscard]] bool has(std::uint64_t ring) const {
-    return is_any(ring, [](const Place& place) { return place.is_common; });
+    return is_any(ring, [](const Meeting& place) { return place.is_common; });
   }
   // True if it touches something that is not of its cell.
   [[nodiscard]] bool touches_others(std::uint64_t ring) const {
-    return is_any(ring, [](const Place& place) { return place.has_others; });
+    return is_any(ring, [](const Meeting& place) { return place.has_others; });
   }
 
  private:
-  struct Place {
+  struct Meeting {
     Index cell = no_index;
     bool is_known = false;
     bool is_common = false;
@@ -139,7 +139,7 @@ class TouchingRings {
 
   std::span<const std::uint64_t> rings_;
   std::vector<Index> numbers_;  // of the place of each corner
-  std::vector<Place> places_;
+  std::vector<Meeting> places_;
 };
 
 bool vanishes_alone(const CellRings& polygons, std::uint64_t ring, const SimplifyOptions& options) {
@@ -207,7 +207,7 @@ Geometries without_small_rings(const Geometries& all, std::size_t end_of_united,
         result.polygons.append_ring(all.polygons.corners_of(r));
       }
     }
-    // As in simplified(): what is outside of all rings is left.
+    // What is outside of all rings is left, as of simplified().
     if (result.polygons.rings.size() == num_before && map::areas_on_left(dropped) < 0) {
       result.polygons.whole.push_back(static_cast<Index>(cell));
     }

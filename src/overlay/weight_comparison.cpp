@@ -271,7 +271,7 @@ class WeightComparer {
     found.exact_sum = exact_sum(row);
     report_.worst_rows.push_back(found);
   }
-  // Of order 2 each source that overlaps the target has an entry, as of order 1; others may have one.
+  // Each source that overlaps the target has an entry of order 2, too; others may have one.
   void look_for_pieces(std::size_t row) {
     const std::uint64_t entries = weights_.offsets[row + 1] - weights_.offsets[row];
     const double allowed = tolerance(row, entries);
