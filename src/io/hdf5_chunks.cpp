@@ -287,17 +287,17 @@ Hdf5Chunks::ChunkValues Hdf5Chunks::values_of(const FileBytes& file,
     const auto at = std::ranges::find(filters_, filter);
     return at != filters_.end() && (place.filters_left_out >> (at - filters_.begin()) & 1U) == 0;
   };
-  const bool is_compressed = is_applied(Filter::deflate);
+  const bool is_deflated = is_applied(Filter::deflate);
   const std::size_t wanted = values_per_chunk_ * value_size_;
   const std::uint64_t end = file.claimed_size();
   if (place.size > end || place.offset > end - place.size) return {};
-  if (!is_compressed && place.size != wanted) return {};
+  if (!is_deflated && place.size != wanted) return {};
   ChunkValues values{memory_->take(wanted), is_applied(Filter::shuffle)};
-  LargeVector<unsigned char> compressed;
-  if (is_compressed) compressed.resize(static_cast<std::size_t>(place.size));
-  LargeVector<unsigned char>& stored = is_compressed ? compressed : values.bytes;
+  LargeVector<unsigned char> deflated;
+  if (is_deflated) deflated.resize(static_cast<std::size_t>(place.size));
+  LargeVector<unsigned char>& stored = is_deflated ? deflated : values.bytes;
   file.read_at(place.offset, reinterpret_cast<char*>(stored.data()), stored.size());
-  if (is_compressed && !zlib_uncompress(compressed, values.bytes)) return {};
+  if (is_deflated && !zlib_uncompress(deflated, values.bytes)) return {};
   return values;
 }
 
