@@ -130,7 +130,8 @@ TiledCells::TiledCells(const CellSet& cells) {
     throw InvalidInput("a cell that is the whole sphere has no tiles", data.whole());
   }
   if (data.has_overlaps({})) {
-    throw InvalidInput("cells that overlap have no tiles", data.overlaps({}).front().second);
+    const auto first = data.some_overlaps(overlay::OverlapsWanted::first, {}, {}).front();
+    throw InvalidInput("cells that overlap have no tiles", first.second);
   }
   content_ = std::make_shared<const CellsOfTiles>(CellsOfTiles{
       std::nullopt, {}, std::make_shared<const StoredCells>(cells), data.covers_sphere()});

@@ -144,12 +144,7 @@ class TouchingRings {
 
 bool vanishes_alone(const CellRings& polygons, std::uint64_t ring, const SimplifyOptions& options) {
   CellRings one;
-  std::vector<Index> corners;
-  for (const Point& p : overlay::points_of_ring(polygons, ring)) {
-    corners.push_back(static_cast<Index>(one.points.size()));
-    one.points.push_back(p);
-  }
-  one.append_ring(corners);
+  overlay::append_ring_of(overlay::points_of_ring(polygons, ring), one);
   one.end_cell();
   return simplified(one, options, {.threads = 1}).corners.empty();
 }

@@ -302,7 +302,8 @@ class Weld {
       const bool is_changed = std::ranges::any_of(
           rings, [](const WeldedRing& ring) { return ring.points != ring.given; });
       const CellRings one = polygon_of(rings);
-      append_cell(is_changed && !one.corners.empty() ? repaired_polygon(one, rings) : one, made);
+      overlay::append(is_changed && !one.corners.empty() ? repaired_polygon(one, rings) : one,
+                      made);
     }
     return made;
   }
@@ -369,29 +370,11 @@ class Weld {
     std::vector<std::vector<Point>> given;
     for (const WeldedRing& ring : rings) {
       given.push_back(ring.given);
-      if (ring.points.empty()) continue;
-      std::vector<Index> corners;
-      for (const Point& p : ring.points) {
-        corners.push_back(static_cast<Index>(one.points.size()));
-        one.points.push_back(p);
-      }
-      one.append_ring(corners);
+      if (!ring.points.empty()) overlay::append_ring_of(ring.points, one);
     }
     if (one.corners.empty() && map::areas_on_left(given) < 0) one.whole.push_back(0);
     one.end_cell();
     return one;
-  }
-  static void append_cell(const CellRings& one, CellRings& all) {
-    const auto first = static_cast<Index>(all.points.size());
-    all.points.insert(all.points.end(), one.points.begin(), one.points.end());
-    if (one.is_whole(0)) all.whole.push_back(static_cast<Index>(all.num_cells()));
-    std::vector<Index> ring;
-    for (std::uint64_t r = 0; r + 1 < one.rings.size(); ++r) {
-      ring.clear();
-      for (const Index corner : one.corners_of(r)) ring.push_back(first + corner);
-      all.append_ring(ring);
-    }
-    all.end_cell();
   }
 
   Geometries& features_;

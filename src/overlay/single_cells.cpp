@@ -18,6 +18,14 @@ std::vector<Point> points_of_ring(const CellRings& cells, std::uint64_t ring) {
   return points;
 }
 
+void append_ring_of(std::span<const Point> points, CellRings& cells) {
+  for (const Point& p : points) {
+    cells.corners.push_back(static_cast<Index>(cells.points.size()));
+    cells.points.push_back(p);
+  }
+  cells.end_ring();
+}
+
 CellRings one_cell(const CellRings& cells, Index cell) {
   CellRings one;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,8 @@ CellRings cells_between(const CellRings& cells, std::size_t first, std::size_t e
 CellRings beyond_cell(CellRings one);
 // True if a single cell is not empty.
 [[nodiscard]] bool has_any(const CellRings& one);
+// Appends a ring with points of its own, which the next end of a cell takes.
+void append_ring_of(std::span<const Point> points, CellRings& cells);
 // Appends a single cell to `all`, with points of its own.
 void append(const CellRings& one, CellRings& all);
 // Merges points that are equal bit by bit, so that cells share their common sides.
