@@ -36,6 +36,14 @@ class BrowserError(Exception):
     """What the browser refused, or what did not happen in time."""
 
 
+class PageLeftError(BrowserError):
+    """A script was asked for while another page took the place of its own."""
+
+
+# How Chromium says so, by how far the other page has come.
+LEFT = ("Inspected target navigated or closed", "Execution context was destroyed", "Cannot find default execution context")
+
+
 class Browser:
     """One process with a folder of its own; `with Browser(path) as browser:` ends it."""
 
@@ -103,7 +111,9 @@ class Browser:
                 raise BrowserError(f"{method} took more than {timeout} s")
             if message.get("id") == self.number:
                 if "error" in message:
-                    raise BrowserError(f"{method}: {message['error']['message']}")
+                    reason = message["error"]["message"]
+                    kind = PageLeftError if reason.startswith(LEFT) else BrowserError
+                    raise kind(f"{method}: {reason}")
                 return message["result"]
             if "method" in message:
                 self.events.append(message)
@@ -176,10 +186,17 @@ class Page:
             raise BrowserError(answer["exceptionDetails"].get("exception", {}).get("description", script))
         return answer["result"].get("value")
 
+    def is_true(self, condition, frame=None):
+        """Whether an expression is true now; it is not while the page is being replaced."""
+        try:
+            return bool(self.run(condition, frame=frame))
+        except PageLeftError:
+            return False
+
     def wait(self, condition, timeout=90, frame=None):
-        """Waits until an expression is true."""
+        """Waits until an expression is true, also in the page that takes the place of this one meanwhile."""
         deadline = time.monotonic() + timeout
-        while not self.run(condition, frame=frame):
+        while not self.is_true(condition, frame):
             if time.monotonic() > deadline:
                 raise BrowserError(f"never came true: {condition}")
             time.sleep(0.02)

@@ -131,7 +131,8 @@ class Files(PlayTest):
 
     def test_the_address_says_what_to_begin_with(self):
         page = self.play()
-        page.run("location.hash = '#preset=spiral&number=50'; location.reload()")
+        page.run("location.hash = '#preset=spiral&number=50'")
+        page.call("Page.reload")
         page.wait("document.readyState === 'complete' && window.rondelGlobe?.about.sites === 50")
         self.assertEqual(page.run("document.getElementById('preset').value"), "spiral")
 
