@@ -15,7 +15,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -141,6 +143,7 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
   nlohmann::ordered_json json = json_of_triangles(result);
   json["filled_km2"] = filled_km2;
   json["small_parts"] = made.num_small_parts;
+  json["lines_outside"] = made.lines_outside.size();
   json["near_small_angles"] = refined.num_near_small_angles;
   json["too_small"] = refined.num_too_small;
   json["seconds"] = seconds;
@@ -153,6 +156,10 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
   if (options.smallest_part > 0) {
     summary += count(made.num_small_parts, "small part is", "small parts are") + " left out\n";
   }
+  if (const std::size_t number = made.lines_outside.size(); number > 0) {
+    summary += count(number, "feature of --lines is", "features of --lines are") +
+               " outside of the mesh\n";
+  }
   const auto say = [&](std::size_t number, const std::string& why) {
     if (number == 0) return;
     summary += count(number, "triangle is", "triangles are") + " not as wanted " + why + '\n';
@@ -161,6 +168,20 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
   say(refined.num_too_small, "where doubles have no place between its corners");
   job.report(json.dump(2) + '\n',
              summary + "wrote " + options.common.output + " in " + text_of_seconds(seconds) + '\n');
+}
+
+// Returns the names of all files that the mesh is made of.
+std::string names_of_features(const MeshTrianglesOptions& options) {
+  std::set<std::string_view> known;
+  std::string names;
+  for (const auto* paths : {&options.coast, &options.area, &options.lines}) {
+    for (const std::string& path : *paths) {
+      if (!known.insert(path).second) continue;
+      if (!names.empty()) names += ", ";
+      names += path;
+    }
+  }
+  return names.empty() ? "--spacing" : names;
 }
 
 // Throws FileError for files that cannot be read or written, and UsageError.
@@ -190,8 +211,7 @@ ExitStatus run_mesh_triangles(const MeshTrianglesOptions& options) {
       made = mesh::triangles(domain, wanted, execution);
       result = mesh_of(made, options, execution);
     } catch (const InvalidInput& error) {
-      const auto& paths = !options.coast.empty() ? options.coast : options.area;
-      throw FileError((paths.empty() ? "--spacing" : paths.front()) + ": " + error.what());
+      throw FileError(names_of_features(options) + ": " + error.what());
     }
   });
   job.time(Stage::write, [&] {

@@ -90,7 +90,10 @@ struct DomainTriangles {
   /// became water where new coasts are simplified is not subtracted.
   double filled_area = 0;
   std::size_t num_small_parts = 0;  ///< parts that were smaller than wanted
-  double west_deg = -180;           ///< that of the domain
+  /// The features of `lines`, counted over all of them, of which no arc and no point is in the mesh:
+  /// they are on land or outside of the area, or so small that they vanished. Ascending.
+  std::vector<Index> lines_outside;
+  double west_deg = -180;  ///< that of the domain
 };
 
 /// Fills a part of the sphere with triangles whose edges follow its border: simplifies coasts,

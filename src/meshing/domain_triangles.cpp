@@ -64,6 +64,12 @@ void append(const Geometries& more, std::size_t begin, std::size_t end, Geometri
 
 void append(const Geometries& more, Geometries& all) { append(more, 0, more.size(), all); }
 
+// True if feature i has no line, no point and no polygon.
+bool is_empty(const Geometries& geometries, std::size_t i) {
+  const auto& [lines, polygons] = geometries;
+  return lines.offsets[i] == lines.offsets[i + 1] && polygons.cells[i] == polygons.cells[i + 1];
+}
+
 // Numbers nodes along the spatial order, and triangles and edges by their nodes. Drops the sites and
 // the sources, which have numbers of the domain.
 void sort(DomainTriangles& made, unsigned threads) {
@@ -156,6 +162,7 @@ class TrianglesOfDomain {
       made.filled_area += meshing::fill_pinches(made);
       if (options_.smallest_part > 0) made.num_small_parts += leave_small_parts_out(made);
     }
+    made.lines_outside = lines_outside(made.mesh, domain);
     sort(made, execution_.threads);
     return made;
   }
@@ -170,6 +177,7 @@ class TrianglesOfDomain {
     const auto has_whole = [](const Geometries& more) { return !more.polygons.whole.empty(); };
     is_everywhere_ = domain.area.empty() || std::ranges::any_of(domain.area, has_whole);
     if (std::ranges::any_of(domain.coast, has_whole)) refuse_land();
+    first_line_ = all_.size();
     for (const Geometries& more : domain.lines) append(more, all_);
   }
 
@@ -359,6 +367,7 @@ class TrianglesOfDomain {
     const double area =
         is_filled ? meshing::area_without(before, polygon_of_mesh(), execution_) : 0;
     if (lines.size() > 0) {
+      first_line_ = all_.size();
       append(lines, all_);
       triangulate();
     }
@@ -434,6 +443,38 @@ class TrianglesOfDomain {
     return result;
   }
 
+  // Returns the lines of the domain of which no arc and no point is in a mesh of the faces.
+  [[nodiscard]] std::vector<Index> lines_outside(const RefinedMesh& mesh,
+                                                 const MeshDomain& domain) const {
+    std::vector<bool> is_in(all_.size());
+    for (const Index source : mesh.sources) {
+      if (source == no_index) continue;
+      for (const Index constraint : triangulation_.sources[source]) {
+        is_in[features_.features[constraint]] = true;
+      }
+    }
+    std::vector<Point> nodes;
+    for (std::size_t v = 0; v < mesh.nodes.size(); ++v) {
+      if (mesh.sites[v] != no_index) nodes.push_back(mesh.nodes[v]);
+    }
+    std::ranges::sort(nodes, exact::is_less);
+    std::vector<Index> outside;
+    std::size_t feature = first_line_;
+    for (const Geometries& more : domain.lines) {
+      for (std::size_t i = 0; i < more.size(); ++i, ++feature) {
+        bool is_found = is_in[feature] || is_empty(more, i);
+        const CompressedRows<Point>& rows = all_.lines.rows;
+        for (std::uint64_t k = all_.lines.offsets[feature]; k < all_.lines.offsets[feature + 1];
+             ++k) {
+          is_found = is_found || (rows[k].size() == 1 &&
+                                  std::ranges::binary_search(nodes, rows[k][0], exact::is_less));
+        }
+        if (!is_found) outside.push_back(static_cast<Index>(feature - first_line_));
+      }
+    }
+    return outside;
+  }
+
   // The share of the tolerance that simplified coasts keep from each other: a sixteenth of the spacing.
   static constexpr double clearance = 0.25;
 
@@ -442,6 +483,7 @@ class TrianglesOfDomain {
   Geometries all_;
   std::size_t end_of_coast_ = 0;
   std::size_t end_of_area_ = 0;
+  std::size_t first_line_ = 0;  // of the domain, behind points that filling water has made
   bool is_everywhere_ = false;  // the area is the sphere
   FeatureConstraints features_;
   ConstrainedTriangulation triangulation_;

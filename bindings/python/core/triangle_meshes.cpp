@@ -114,9 +114,9 @@ std::vector<std::string> write_triangle_file(const TriangleMesh& mesh, const std
   return remarks;
 }
 
-// Fills a domain with triangles; a null area is the sphere. Returns the mesh, and the number of
-// triangles that are not as wanted because doubles have no place.
-std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
+// Fills a domain with triangles; a null area is the sphere. Returns the mesh, the number of triangles
+// that are not as wanted because doubles have no place, and the lines of which nothing is in the mesh.
+std::tuple<TriangleMesh, std::size_t, std::vector<Index>> triangles_of_domain(
     const Geometries& coast, const Geometries* area, const Geometries& lines,
     const NumbersIn& spacings, std::size_t steps, double gradient,
     const std::optional<double>& tolerance, const std::optional<double>& weld,
@@ -136,7 +136,8 @@ std::tuple<TriangleMesh, std::size_t> triangles_of_domain(
   options.refine.spacing = size_of(rows_of<double>(spacings), raster_of(domain, steps), gradient);
   return watched(many_sites, threads, listener, [&](const Execution& execution) {
     const mesh::DomainTriangles made = mesh::triangles(domain, options, execution);
-    return std::tuple(mesh::triangle_mesh(made), made.mesh.report.num_too_small);
+    return std::tuple(mesh::triangle_mesh(made), made.mesh.report.num_too_small,
+                      made.lines_outside);
   });
 }
 

@@ -364,7 +364,8 @@ def triangles(
         Polygons inside of which the mesh is; by default everywhere. Geometries without a polygon
         are an error.
     lines : geometries, optional
-        Lines and sides of polygons that are edges inside, and points that are nodes.
+        Lines and sides of polygons that are edges inside, and points that are nodes. A warning says
+        how many are outside of the mesh: on land, outside of `area`, or too small to stay.
     spacing : float or callable, optional
         The length of edges in radians: a number, or a function of places, float64 of shape (n, 3),
         that returns n numbers. No edge is longer than 1.5 times the spacing at its ends. By default
@@ -463,7 +464,7 @@ def triangles(
     within = parts.pop("area")
     of_area = [operand.longitudes for operand in found if operand.name == "area"]
     of_others = [operand.longitudes for operand in found if operand.name != "area"]
-    made, too_small = _core.triangles_of_domain(
+    made, too_small, lines_outside = _core.triangles_of_domain(
         **parts,
         # A missing area is the sphere, and an area without features is none.
         area=None if area is None else within,
@@ -486,6 +487,9 @@ def triangles(
             f"{count(too_small, 'triangle is', 'triangles are')} not as wanted where "
             "doubles have no place between the corners"
         )
+    if lines_outside:
+        number = count(len(lines_outside), "feature of lines is", "features of lines are")
+        warn_caller(f"{number} outside of the mesh, the first one {lines_outside[0]}")
     mesh = TriangleMesh._of(made)
     if depths is None:
         return mesh

@@ -4,6 +4,7 @@
 
 import math
 import pickle
+import warnings
 from xml.etree import ElementTree
 
 import numpy as np
@@ -236,6 +237,19 @@ def test_lines_that_cross_make_a_node():
     cross = shapely.MultiLineString([[(-3, 0), (3, 0)], [(0, -3), (0, 3)]])
     mesh = rondel.mesh.triangles(area=shapely.box(-5, -5, 5, 5), lines=cross, spacing=0.05)
     assert (mesh.points == [1, 0, 0]).all(axis=1).sum() == 1
+
+
+def test_lines_outside_are_told():
+    shapely = pytest.importorskip("shapely")
+    sea = shapely.box(-5, -5, 5, 5)
+    inside, outside = shapely.LineString([(-1, 0), (1, 0)]), shapely.Point(7, 0)
+    with pytest.warns(UserWarning, match="^1 feature of lines is outside of .*, the first one 1$"):
+        rondel.mesh.triangles(area=sea, lines=[inside, outside], spacing=0.05)
+    with pytest.warns(UserWarning, match="^2 features of lines are outside"):
+        rondel.mesh.triangles(area=sea, lines=[outside, inside, outside], spacing=0.05)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rondel.mesh.triangles(area=sea, lines=[None, inside], spacing=0.05)
 
 
 def test_what_cannot_be_filled():

@@ -352,6 +352,36 @@ MeshDomain seas_with_strait() {
   return {{polygon({box(-20, -20, 30, 25), shores})}, {around}, {}};
 }
 
+TEST(domain_triangles, lines_outside_are_told) {
+  const Geometries sea = polygon({box(-5, -5, 5, 5)});
+  const Geometries island = polygon({box(2, -1, 4, 1)});
+  const MeshDomain domain = {{island},
+                             {sea},
+                             {line({{2.5, 0}, {3.5, 0}}),  // on land
+                              line({{3, 0}, {3, 3}}),      // from land into the sea
+                              line({{7, 0}, {9, 1}}), line({{3, 0}}), line({{4.9, 4.9}}),
+                              line({{5.1, 4.9}}), line({{2, -1}, {2, 1}}),  // the coast
+                              line({{2, 0}, {3, 0}}),                       // from the coast inland
+                              polygon({box(6, 0, 7, 1)}), polygon({})}};
+  const std::vector<Index> outside = {0, 2, 3, 5, 7, 8};
+  EXPECT_EQ(triangles(domain, spaced(1)).lines_outside, outside);
+  TrianglesOptions filled = spaced(1);
+  filled.fill_narrow = 0.5;
+  EXPECT_EQ(triangles(domain, filled).lines_outside, outside);
+  EXPECT_TRUE(triangles({{island}, {sea}, {}}, spaced(1)).lines_outside.empty());
+}
+
+TEST(domain_triangles, lines_on_parts_that_are_left_out_are_outside) {
+  MeshDomain domain = seas_with_strait();
+  domain.lines = {line({{14, 4}, {15, 5}}), line({{10, 4.97}, {12, 5.03}}), line({{3, 3}})};
+  TrianglesOptions options = spaced(1);
+  EXPECT_TRUE(triangles(domain, options).lines_outside.empty());
+  options.fill_narrow = 0.5;
+  EXPECT_EQ(triangles(domain, options).lines_outside, std::vector<Index>{1});
+  options.smallest_part = 0.5;
+  EXPECT_EQ(triangles(domain, options).lines_outside, (std::vector<Index>{0, 1}));
+}
+
 TEST(domain_triangles, narrow_water_is_filled) {
   TrianglesOptions options = spaced(1);
   const MeshDomain domain = seas_with_strait();
