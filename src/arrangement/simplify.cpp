@@ -90,7 +90,7 @@ CellRings polygons_left(const CellRings& given, const LineNetwork& network,
       result.end_ring();
     }
     const bool has_rings = result.rings.size() - 1 != result.cells.back();
-    if (!has_rings && (given.is_whole(cell) || map::areas_on_left(dropped) < 0)) {
+    if (!has_rings && (given.is_whole(cell) || map::have_outside_on_left(dropped))) {
       result.whole.push_back(static_cast<Index>(cell));
     }
     result.end_cell();

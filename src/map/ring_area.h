@@ -29,6 +29,13 @@ template <class Rings>
   return sum.hi + sum.lo;
 }
 
+// True if the rings of a region that are small together have all that is outside of them on their left: a
+// region that is on the outside of its rings is the whole sphere where these vanish.
+template <class Rings>
+[[nodiscard]] bool have_outside_on_left(const Rings& rings) {
+  return areas_on_left(rings) < 0;
+}
+
 // True if area_on_left() is less than 0. If all triangles turn the same way, no angle is computed.
 bool is_clockwise(std::span<const Point> ring);
 

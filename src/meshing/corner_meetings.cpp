@@ -203,7 +203,7 @@ Geometries without_small_rings(const Geometries& all, std::size_t end_of_united,
       }
     }
     // What is outside of all rings is left, as of simplified().
-    if (result.polygons.rings.size() == num_before && map::areas_on_left(dropped) < 0) {
+    if (result.polygons.rings.size() == num_before && map::have_outside_on_left(dropped)) {
       result.polygons.whole.push_back(static_cast<Index>(cell));
     }
     result.polygons.end_cell();

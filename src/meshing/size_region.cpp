@@ -164,7 +164,7 @@ bool has_outside(const CellRings& polygons) {
     for (std::uint64_t ring = polygons.cells[cell]; ring < polygons.cells[cell + 1]; ++ring) {
       rings.push_back(overlay::points_of_ring(polygons, ring));
     }
-    if (map::areas_on_left(rings) < 0) return true;
+    if (map::have_outside_on_left(rings)) return true;
   }
   return false;
 }

@@ -325,7 +325,7 @@ class Weld {
     });
     if (are_near) {
       known = {Point{-middle.x, -middle.y, -middle.z}, given.front().front(),
-               map::areas_on_left(given) < 0};
+               map::have_outside_on_left(given)};
     }
     return arrangement::even_odd_union(one, std::span(&known, 1), {.threads = 1});
   }
@@ -372,7 +372,7 @@ class Weld {
       given.push_back(ring.given);
       if (!ring.points.empty()) overlay::append_ring_of(ring.points, one);
     }
-    if (one.corners.empty() && map::areas_on_left(given) < 0) one.whole.push_back(0);
+    if (one.corners.empty() && map::have_outside_on_left(given)) one.whole.push_back(0);
     one.end_cell();
     return one;
   }
