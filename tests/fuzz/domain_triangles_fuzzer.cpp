@@ -7,8 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "fuzz/fuzz_input.h"
@@ -16,6 +20,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/mesh_triangles.h"
 #include "rondel/predicates.h"
+#include "rondel/regions.h"
 #include "rondel/triangle_mesh.h"
 
 namespace rondel::fuzz {
@@ -92,6 +97,116 @@ void test_domain(const mesh::MeshDomain& domain, const mesh::TrianglesOptions& o
   }
 }
 
+// Places in the gnomonic plane around a point of the sphere.
+struct Chart {
+  Point origin;
+  Point east;
+  Point north;
+
+  explicit Chart(const LonLat& middle)
+      : origin(unit_vectors(std::array{middle}).front()),
+        east(unit_vectors(std::array{LonLat{middle.lon_deg + 90, 0}}).front()),
+        north{origin.y * east.z - origin.z * east.y, origin.z * east.x - origin.x * east.z,
+              origin.x * east.y - origin.y * east.x} {}
+  [[nodiscard]] Point at(double x, double y) const {
+    const Point p = {origin.x + x * east.x + y * north.x, origin.y + x * east.y + y * north.y,
+                     origin.z + x * east.z + y * north.z};
+    const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+    return {p.x / length, p.y / length, p.z / length};
+  }
+};
+
+double length_around(const Geometries& geometries) {
+  double length = 0;
+  for (std::uint64_t r = 0; r + 1 < geometries.polygons.rings.size(); ++r) {
+    const auto ring = geometries.polygons.corners_of(r);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const auto& points = geometries.polygons.points;
+      length += std::sqrt(square_of_distance(points[ring[k]], points[ring[(k + 1) % ring.size()]]));
+    }
+  }
+  return length;
+}
+
+// Appends a ring of corners around a place; the sign of `size` is its direction.
+void append_star(const Chart& chart, double x, double y, double size, std::span<const double> radii,
+                 Geometries& island) {
+  std::vector<Index> ring;
+  const double step = 2 * std::numbers::pi / static_cast<double>(radii.size());
+  for (std::size_t k = 0; k < radii.size(); ++k) {
+    const double angle = (size < 0 ? -step : step) * static_cast<double>(k);
+    const double radius = std::abs(size) * radii[size < 0 && k > 0 ? radii.size() - k : k];
+    ring.push_back(static_cast<Index>(island.polygons.points.size()));
+    island.polygons.points.push_back(
+        chart.at(x + radius * std::cos(angle), y + radius * std::sin(angle)));
+  }
+  island.polygons.append_ring(ring);
+}
+
+// A sea with rocks, some with lakes, of about the sizes at which they are welded or simplified away:
+// whatever becomes of them, the area of the mesh is that of the sea but for these and their shores, and
+// the order of the rocks changes nothing.
+void test_rocks(ByteSource& source) {
+  constexpr double half = 0.3;
+  constexpr double spacing = 0.05;
+  const Chart chart({1.4 * source.byte() - 180, 0.7 * source.byte() - 90});
+  mesh::TrianglesOptions options;
+  const std::array<std::optional<double>, 4> tolerances = {std::nullopt, 0, spacing / 10, spacing};
+  const std::array<std::optional<double>, 4> welds = {std::nullopt, 0, spacing / 100, spacing / 4};
+  options.tolerance = tolerances[source.byte() % 4U];
+  options.weld = welds[source.byte() % 4U];
+  options.fill_narrow = source.byte() % 4 == 0 ? 0.5 : 0;
+  const double tolerance = options.tolerance.value_or(spacing / 4);
+  const double near = options.weld.value_or(std::min(1e-4 * spacing, tolerance));
+
+  Geometries sea = polygon(
+      {chart.at(-half, -half), chart.at(half, -half), chart.at(half, half), chart.at(-half, half)});
+  const double area_of_sea = areas(sea.polygons).front();
+  double length = length_around(sea);
+  double land = 0;
+  mesh::MeshDomain domain;
+  const std::size_t num_rocks = 1U + source.byte() % 6U;
+  for (std::size_t i = 0; i < num_rocks; ++i) {
+    const double sizes[] = {near, std::max(tolerance, near), spacing};
+    const double size = std::max(sizes[source.byte() % 3U] * (0.05 + source.byte() / 32.0), 1e-9);
+    const double x = source.small() / 128.0 * half;
+    const double y = source.small() / 128.0 * half;
+    std::vector<double> radii(3U + source.byte() % 6U);
+    for (double& radius : radii) radius = (64 + source.byte()) / 319.0;
+    Geometries rock;
+    append_star(chart, x, y, size, radii, rock);
+    const double of_lake = source.byte() / 256.0;
+    if (of_lake > 0.3) append_star(chart, x, y, -size * of_lake, radii, rock);
+    rock.polygons.end_cell();
+    rock.lines.end_group();
+    land += areas(rock.polygons).front();
+    length += length_around(rock);
+    domain.coast.push_back(std::move(rock));
+  }
+  domain.area.push_back(std::move(sea));
+  options.refine.spacing =
+      mesh::SizeFunction::constant(2 * std::asin(spacing / 2), {*mesh::region_of(domain), 4});
+  options.refine.most_vertices = 50'000;
+  const mesh::DomainTriangles made = mesh::triangles(domain, options);
+  test_mesh(made.mesh, spacing);
+  CellRings triangles;
+  triangles.points = made.mesh.nodes;
+  for (const Triple& triangle : made.mesh.triangles) {
+    triangles.append_ring(triangle);
+    triangles.end_cell();
+  }
+  const std::vector<double> each = areas(triangles);
+  const double area = std::accumulate(each.begin(), each.end(), 0.0);
+  constexpr double rounding = 1e-11;
+  const double shores = rounding + (tolerance + 4 * near + options.fill_narrow * spacing) * length;
+  require(area < area_of_sea + shores && area > area_of_sea - land - shores,
+          "the mesh has the area of the sea");
+  std::ranges::reverse(domain.coast);
+  const mesh::DomainTriangles again = mesh::triangles(domain, options);
+  require(again.mesh.nodes == made.mesh.nodes && again.mesh.triangles == made.mesh.triangles,
+          "the order of features changes nothing");
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -99,7 +214,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   mesh::TrianglesOptions options;
-  options.refine.smallest_angle_deg = source.byte() % 33;
+  const std::uint8_t angle_or_rocks = source.byte();
+  if (angle_or_rocks >= 160) {
+    fuzz::test_rocks(source);
+    return 0;
+  }
+  options.refine.smallest_angle_deg = angle_or_rocks % 33;
   options.refine.most_vertices = 2000;
   const bool is_spaced = source.byte() % 2 == 0;
   const double angle = 0.2 + 0.01 * source.byte();
