@@ -85,70 +85,6 @@ Geometries rebuilt(const Geometries& all, const ArrangedArcs& arranged) {
   return result;
 }
 
-// Where rings have corners in common with others or with lines, or have one twice.
-class TouchingRings {
- public:
-  explicit TouchingRings(const Geometries& all) : rings_(all.polygons.rings) {
-    const CellRings& polygons = all.polygons;
-    std::vector<Point> corners;
-    for (const Index corner : polygons.corners) corners.push_back(polygons.points[corner]);
-    const auto& points = all.lines.rows.values;
-    corners.insert(corners.end(), points.begin(), points.end());
-    system::Distinct<Point> places = system::distinct(std::span<const Point>(corners));
-    numbers_ = std::move(places.numbers);
-    places_.resize(places.values.size());
-    for (Index cell = 0; cell < polygons.num_cells(); ++cell) {
-      for (std::uint64_t k = rings_[polygons.cells[cell]]; k < rings_[polygons.cells[cell + 1]];
-           ++k) {
-        places_[numbers_[k]].add(cell);
-      }
-    }
-    for (std::size_t k = polygons.corners.size(); k < numbers_.size(); ++k) {
-      places_[numbers_[k]].add(no_index);
-    }
-  }
-  [[nodiscard]] bool has(std::uint64_t ring) const {
-    return is_any(ring, [](const Meeting& place) { return place.is_common; });
-  }
-  // True if it touches something that is not of its cell.
-  [[nodiscard]] bool touches_others(std::uint64_t ring) const {
-    return is_any(ring, [](const Meeting& place) { return place.has_others; });
-  }
-
- private:
-  struct Meeting {
-    Index cell = no_index;
-    bool is_known = false;
-    bool is_common = false;
-    bool has_others = false;  // than those of one cell
-
-    void add(Index other) {
-      is_common = is_known;
-      has_others = has_others || (is_known && other != cell);
-      cell = other;
-      is_known = true;
-    }
-  };
-  template <class Is>
-  [[nodiscard]] bool is_any(std::uint64_t ring, const Is& is) const {
-    for (std::uint64_t k = rings_[ring]; k < rings_[ring + 1]; ++k) {
-      if (is(places_[numbers_[k]])) return true;
-    }
-    return false;
-  }
-
-  std::span<const std::uint64_t> rings_;
-  std::vector<Index> numbers_;  // of the place of each corner
-  std::vector<Meeting> places_;
-};
-
-bool vanishes_alone(const CellRings& polygons, std::uint64_t ring, const SimplifyOptions& options) {
-  CellRings one;
-  overlay::append_ring_of(overlay::points_of_ring(polygons, ring), one);
-  one.end_cell();
-  return simplified(one, options, {.threads = 1}).corners.empty();
-}
-
 }  // namespace
 
 std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execution& execution) {
@@ -178,37 +114,6 @@ bool have_common_corners(const CellRings& polygons, std::size_t end) {
   const std::uint64_t last = polygons.rings[polygons.cells[end]];
   for (std::uint64_t k = 0; k < last; ++k) corners.push_back(polygons.points[polygons.corners[k]]);
   return system::distinct(std::span<const Point>(corners)).values.size() < corners.size();
-}
-
-Geometries without_small_rings(const Geometries& all, std::size_t end_of_united,
-                               const SimplifyOptions& options, const Execution& execution) {
-  Geometries alone = one_by_one(all);
-  const CellRings left = simplified(alone.lines, alone.polygons, options, execution).polygons;
-  const TouchingRings touching(all);
-  const std::size_t first = all.lines.rows.size();  // cell of a ring
-  Geometries result{all.lines, {}};
-  result.polygons.points = std::move(alone.polygons.points);
-  for (std::size_t cell = 0; cell < all.polygons.num_cells(); ++cell) {
-    std::vector<std::vector<Point>> dropped;
-    const std::size_t num_before = result.polygons.rings.size();
-    for (std::uint64_t r = all.polygons.cells[cell]; r < all.polygons.cells[cell + 1]; ++r) {
-      const bool is_dropped =
-          left.cells[first + r] == left.cells[first + r + 1] ||
-          (touching.has(r) && (cell < end_of_united || !touching.touches_others(r)) &&
-           vanishes_alone(all.polygons, r, options));
-      if (is_dropped) {
-        dropped.push_back(overlay::points_of_ring(all.polygons, r));
-      } else {
-        result.polygons.append_ring(all.polygons.corners_of(r));
-      }
-    }
-    // What is outside of all rings is left, as of simplified().
-    if (result.polygons.rings.size() == num_before && map::have_outside_on_left(dropped)) {
-      result.polygons.whole.push_back(static_cast<Index>(cell));
-    }
-    result.polygons.end_cell();
-  }
-  return result;
 }
 
 void unite_polygons(std::size_t begin, std::size_t end, Geometries& all,

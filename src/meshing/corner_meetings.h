@@ -14,7 +14,6 @@
 #include <optional>
 
 #include "rondel/geometries.h"
-#include "rondel/simplify.h"
 #include "rondel/types.h"
 
 namespace rondel::meshing {
@@ -25,14 +24,6 @@ std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execut
 // True if two rings of the first polygons, up to before `end`, have a corner in common, or one ring
 // has it twice.
 bool have_common_corners(const CellRings& polygons, std::size_t end);
-
-// Leaves out the rings that vanish when the features are simplified as they are. Where a ring
-// crosses others its corners at the crossings would keep it, however small it is. A ring that touches
-// others, whose corners there would keep it, vanishes also if it would alone: one of the first
-// polygons, up to before `end_of_united`, which have been united, or one that touches rings of its
-// polygon only.
-Geometries without_small_rings(const Geometries& all, std::size_t end_of_united,
-                               const SimplifyOptions& options, const Execution& execution);
 
 // Gives the polygons of the features from `begin` to before `end` to the first of these, as one.
 void unite_polygons(std::size_t begin, std::size_t end, Geometries& all,

@@ -23,6 +23,7 @@
 #include "meshing/pinches.h"
 #include "meshing/scvt_levels.h"
 #include "meshing/small_parts.h"
+#include "meshing/small_rings.h"
 #include "meshing/sound_positions.h"
 #include "meshing/weld.h"
 #include "order/spatial_order.h"
@@ -192,19 +193,19 @@ class TrianglesOfDomain {
     }
     simplify_by(simplify);
   }
-  // Polygons that overlap are simplified as one, and features that cross after they have corners
+  // Polygons that overlap or touch are simplified as one, and features that cross after they have corners
   // there: so coasts, borders and lines keep their topology.
   void simplify_by(const SimplifyOptions& simplify) {
     weld_features();
     const bool is_meeting = meshing::meeting_in_corners(all_, execution_).has_value();
     if (is_meeting || meshing::have_common_corners(all_.polygons, end_of_area_)) {
       meshing::unite_polygons(0, end_of_coast_, all_, execution_);
-      // Borders within an area that is not united stay.
-      if (is_meeting) meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
+      meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
       take_whole();
-      all_ = meshing::without_small_rings(all_, is_meeting ? end_of_area_ : end_of_coast_, simplify,
-                                          execution_);
-      take_whole();
+    }
+    all_.polygons = meshing::without_small_rings(all_.polygons, end_of_area_, simplify, execution_);
+    take_whole();
+    if (is_meeting) {
       if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
     }
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);

@@ -22,6 +22,7 @@
 #include "exact/point_order.h"
 #include "exact/vector.h"
 #include "map/ring_area.h"
+#include "meshing/rings_within.h"
 #include "overlay/single_cells.h"
 #include "system/distinct.h"
 
@@ -261,13 +262,13 @@ class Weld {
     return false;
   }
 
-  // True if a small ring has its inside on the other side than the ring that was given.
+  // True if a small ring has no inside, or has it on the other side than the ring that was given.
   static bool is_inverted(std::span<const Point> ring, std::span<const Point> given) {
     constexpr double small = 0.1;
     const double area = map::area_on_left(ring);
     if (std::abs(area) > small) return false;
     const double before = map::area_on_left(given);
-    return std::abs(before) < small && (area < 0) != (before < 0);
+    return std::abs(before) < small && (area == 0 || (area < 0) != (before < 0));
   }
 
   FeatureLines welded_lines() {
@@ -298,7 +299,7 @@ class Weld {
       for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
         rings.push_back(next_ring(r));
       }
-      drop_what_is_within(rings);
+      drop_what_is_within(i, rings);
       const bool is_changed = std::ranges::any_of(
           rings, [](const WeldedRing& ring) { return ring.points != ring.given; });
       const CellRings one = polygon_of(rings);
@@ -341,29 +342,13 @@ class Weld {
     return ring;
   }
   // Drops the rings around which a ring vanishes: a lake does with its island.
-  static void drop_what_is_within(std::vector<WeldedRing>& rings) {
-    std::vector<arrangement::SpaceBox> boxes;
-    for (const WeldedRing& ring : rings) {
-      if (!ring.points.empty() || ring.given.empty()) continue;
-      boxes.push_back(box_around_ring(ring.given));
-      // Between corners the sphere is higher than their box.
-      boxes.back().widen(boxes.back().squared_diagonal() + rounding_of_places);
+  void drop_what_is_within(std::size_t cell, std::vector<WeldedRing>& rings) const {
+    std::vector<bool> vanishes;
+    for (const WeldedRing& ring : rings) vanishes.push_back(ring.points.empty());
+    const std::vector<bool> is_within = rings_within(features_.polygons, cell, vanishes);
+    for (std::size_t i = 0; i < rings.size(); ++i) {
+      if (is_within[i]) rings[i].points.clear();
     }
-    if (boxes.empty()) return;
-    const BoxTree tree(
-        boxes.size(), [&](std::size_t i) { return boxes[i]; }, 1);
-    for (WeldedRing& ring : rings) {
-      if (ring.points.empty()) continue;
-      const arrangement::SpaceBox own = box_around_ring(ring.given);
-      bool is_within = false;
-      tree.visit(own, [&](Index i) { is_within = is_within || boxes[i].contains(own); });
-      if (is_within) ring.points.clear();
-    }
-  }
-  static arrangement::SpaceBox box_around_ring(std::span<const Point> ring) {
-    arrangement::SpaceBox box = arrangement::empty_box;
-    for (const Point& p : ring) box.include(box_around(p, 0));
-    return box;
   }
   static CellRings polygon_of(const std::vector<WeldedRing>& rings) {
     CellRings one;

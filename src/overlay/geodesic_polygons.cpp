@@ -22,31 +22,59 @@
 namespace rondel::overlay {
 namespace {
 
-// True if a ring is clockwise. For a ring that spans less than 180 degrees of longitude and has
-// no pole it is decided exactly by the turn at its westernmost corner, whose meridian has the
-// ring on one side. Otherwise the smaller side is the inside.
+// Returns the sign of a turn, or zero if rounding of the corners may have made it.
+Sign sure_turn(const Point& p, const Point& q, const Point& r) {
+  constexpr double rounding = 1e-12;
+  const exact::Vector3<double> in = exact::to_vector(q) - exact::to_vector(p);
+  const exact::Vector3<double> out = exact::to_vector(r) - exact::to_vector(q);
+  const double turn = dot(exact::to_vector(q), cross(in, out));
+  if (!(std::abs(turn) > rounding * (norm(in) + norm(out)))) return Sign::zero;
+  return turn > 0 ? Sign::positive : Sign::negative;
+}
+
+// The corner of a ring that is farthest in the west, of several of them the one with the least latitude.
+// Longitudes are compared as they were given but for whole turns, which the ring adds up to.
+class WesternmostCorner {
+ public:
+  explicit WesternmostCorner(const std::vector<LonLat>& positions) {
+    const std::size_t n = positions.size();
+    double turns = 0;
+    double west = positions[0].lon_deg;
+    double east = west;
+    for (std::size_t k = 1; k <= n; ++k) {
+      const LonLat& p = positions[k < n ? k : 0];
+      const double step = p.lon_deg - positions[k - 1].lon_deg;
+      if (std::abs(step) > 180) turns -= std::nearbyint(step / 360);
+      if (std::abs(p.lat_deg) == 90 || std::abs(std::remainder(step, 360)) == 180) return;
+      if (k == n) break;
+      const double lon = p.lon_deg + 360 * turns;
+      if (lon < west || (lon == west && p.lat_deg < positions[corner_].lat_deg)) corner_ = k;
+      west = std::min(west, lon);
+      east = std::max(east, lon);
+    }
+    is_known_ = turns == 0 && east - west < 180 && n > 2;
+  }
+
+  // False for a ring that spans 180 degrees of longitude or has a pole.
+  [[nodiscard]] bool is_known() const { return is_known_; }
+  [[nodiscard]] std::size_t operator*() const { return corner_; }
+
+ private:
+  std::size_t corner_ = 0;
+  bool is_known_ = false;
+};
+
+// True if a ring is clockwise. For a ring that spans less than 180 degrees of longitude and has no
+// pole the turn at its westernmost corner says so, whose meridian has the ring on one side, unless
+// rounding may have changed that. Otherwise the smaller side is the inside.
 bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Point>& corners) {
   const std::size_t n = positions.size();
-  double lon = 0;
-  double west = 0;
-  double east = 0;
-  std::size_t corner = 0;
-  for (std::size_t k = 1; k <= n; ++k) {
-    const LonLat& p = positions[k < n ? k : 0];
-    double step = p.lon_deg - positions[k - 1].lon_deg;
-    if (std::abs(step) > 180) step = std::remainder(step, 360.0);
-    if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
-    lon += step;
-    if (k == n) break;
-    if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
-    west = std::min(west, lon);
-    east = std::max(east, lon);
-  }
+  const WesternmostCorner west(positions);
   // A corner that the ring passes twice may be the foot of a spike, which says nothing.
-  const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
-  if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
-    const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
-                                  corners[corner + 1 < n ? corner + 1 : 0]);
+  if (west.is_known() && std::ranges::count(corners, corners[*west]) == 1) {
+    const Point& before = corners[*west > 0 ? *west - 1 : n - 1];
+    const Point& after = corners[*west + 1 < n ? *west + 1 : 0];
+    const Sign sign = sure_turn(before, corners[*west], after);
     if (sign != Sign::zero) return sign == Sign::negative;
   }
   return map::area_on_left(corners) < 0;
@@ -225,8 +253,13 @@ void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t fea
     ring.is_hole = false;
     alone.rings.push_back({std::move(ring)});
   }
-  const std::vector<CrossingCells> overlaps =
-      overlapping_cells(geodesic_cells(alone, execution), execution);
+  std::vector<CrossingCells> overlaps;
+  try {
+    overlaps = overlapping_cells(geodesic_cells(alone, execution), execution);
+  } catch (const FeatureFault& fault) {
+    refuse_feature(features, feature,
+                   ring_name(rings, static_cast<Index>(fault.feature())) + ": " + fault.fault());
+  }
   const auto overlap = [&](Index a, Index b) {
     return std::ranges::any_of(overlaps, [&](const CrossingCells& pair) {
       return std::minmax(pair.first, pair.second) == std::minmax(a, b);

@@ -6,6 +6,7 @@ rondel_add_test(triangle_mesh_test
   map/longitudes_test.cpp
   meshing/boundary_segments_test.cpp
   meshing/domain_crossings_test.cpp
+  meshing/domain_small_rings_test.cpp
   meshing/domain_triangles_test.cpp
   meshing/sound_positions_test.cpp
   meshing/triangle_meshes.cpp

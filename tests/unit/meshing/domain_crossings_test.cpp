@@ -219,7 +219,7 @@ TEST(domain_crossings, one_part_is_left_where_nodes_are_filled) {
   options.smallest_part = 1;
   const DomainTriangles made = triangles({land, {sea}, {}}, options);
   EXPECT_EQ(number_of_parts(made), 1U);
-  EXPECT_EQ(made.num_small_parts, 3U);
+  EXPECT_EQ(made.num_small_parts, 2U);
 }
 
 TEST(domain_crossings, coasts_that_cross_are_simplified_where_water_is_filled) {

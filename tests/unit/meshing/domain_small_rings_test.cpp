@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Islands and lakes that are nowhere wider than the tolerance vanish, with what is within them, wherever
+// they are; all else stays. The mesh is that of the same domain without them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "inputs/random.h"
+#include "meshing/rings_within.h"
+#include "rondel/mesh_triangles.h"
+#include "unit/meshing/domains.h"
+
+namespace rondel::test {
+namespace {
+
+Ring reversed(Ring ring) {
+  std::ranges::reverse(ring);
+  return ring;
+}
+
+// A ring around a place, counterclockwise.
+Ring ellipse(double lon, double lat, double width, double height, int size) {
+  Ring ring;
+  for (int k = 0; k < size; ++k) {
+    const double angle = 2 * std::numbers::pi * k / size;
+    ring.push_back({lon + 0.5 * width * std::cos(angle), lat + 0.5 * height * std::sin(angle)});
+  }
+  return ring;
+}
+
+TrianglesOptions simplified_by_spacing(double degrees) {
+  TrianglesOptions options = spaced(degrees);
+  options.tolerance.reset();
+  return options;
+}
+
+class SmallRingsTest : public testing::Test {
+ protected:
+  // Expects a coast to give the mesh of another one.
+  void expect_equal(const std::vector<Geometries>& coast, const std::vector<Geometries>& without) {
+    expect_same(triangles({coast, {sea_}, lines_}, options_),
+                triangles({without, {sea_}, lines_}, options_));
+  }
+
+  TrianglesOptions options_ = simplified_by_spacing(4);
+  Geometries sea_ = polygon({box(-9, -8, 9, 8)});
+  std::vector<Geometries> lines_;
+};
+
+// A lake like a needle across a land, with a lake beside it in the box around the needle.
+TEST_F(SmallRingsTest, needles_take_nothing_with_them) {
+  inputs::Random random(3);
+  for (int run = 0; run < 60; ++run) {
+    SCOPED_TRACE(run);
+    const double size = 3 + 2 * random.unit();
+    const double tip = size * std::ldexp(1.0, -run % 40);
+    const double mirror = run % 2 == 0 ? 1 : -1;
+    const auto turned = [&](Ring ring) {
+      for (LonLat& p : ring) p.lon_deg *= mirror;
+      return mirror > 0 ? ring : reversed(ring);
+    };
+    const Ring land = box(-6, -6, 6, 6);
+    const Ring lake = reversed(turned(box(-4, 1, -1, 4)));
+    const Ring needle = turned({{-size, -size}, {0.1, 0.1 + 1e-3 * tip}, {size, size}});
+    expect_equal({polygon({land, needle})}, {polygon({land})});
+    expect_equal({polygon({land, needle, lake})}, {polygon({land, lake})});
+    // As parts of one feature.
+    Geometries parts = polygon({reversed(needle), turned(box(-4, 1, -1, 4))});
+    expect_equal({parts}, {polygon({turned(box(-4, 1, -1, 4))})});
+  }
+}
+
+// Thin islands and lakes, whose corners the clearance would keep from the other shore.
+TEST_F(SmallRingsTest, thin_rings_vanish) {
+  const Ring land = box(-7, -7, 7, 7);
+  for (const int size : {4, 5, 8, 12, 40}) {
+    for (const double height : {0.3, 0.1, 0.01, 1e-4}) {
+      SCOPED_TRACE(size);
+      SCOPED_TRACE(height);
+      const Ring thin = ellipse(0.5, 1, 6, height, size);
+      expect_equal({polygon({thin})}, {});
+      expect_equal({polygon({land, reversed(thin)})}, {polygon({land})});
+    }
+  }
+}
+
+// An island that vanishes with a lake that is too thin to be simplified beside its shore; the lake
+// touches the shore, or the island touches something.
+TEST_F(SmallRingsTest, lakes_vanish_with_islands_that_touch) {
+  const Ring shore = ellipse(1, 0, 2, 0.2, 8);
+  const Ring lake = {{0.2, 0}, {1, 0.01}, {1.8, 0}, {1, -0.01}};
+  Ring lagoon = lake;
+  lagoon.back() = {1, -0.01};
+  lagoon.front() = shore[4];  // a corner of the island
+  const Geometries land = polygon({{shore[4], {-4, 3}, {-4, -3}}});
+  const Geometries islet = polygon({{shore[0], {2.1, -0.05}, {2.1, 0.05}}});
+  for (const Ring& water : {lake, lagoon}) {
+    const Geometries island = polygon({shore, water});
+    expect_equal({island}, {});
+    expect_equal({island, islet}, {});
+    expect_equal({island, land}, {land});
+    expect_equal({island, islet, land}, {land});
+  }
+}
+
+TEST_F(SmallRingsTest, lines_and_points_keep_no_islet) {
+  const Geometries islet = polygon({box(2, 2, 2.1, 2.1)});
+  for (const Geometries& beside :
+       {line({{2, 2}}), line({{2, 2}, {-3, 1}}), line({{-3, 2}, {2, 2}, {5, 3}}),
+        line({{2.1, 2.05}, {5, 3}}), line({{0, 2.05}, {5, 2.05}})}) {
+    lines_ = {beside};
+    const DomainTriangles made = triangles({{islet}, {sea_}, lines_}, options_);
+    EXPECT_EQ(std::ranges::count(made.features, FeatureOfEdge::coast), 0);
+    expect_same(made, triangles({{islet, islet}, {sea_}, lines_}, options_));
+  }
+}
+
+TEST_F(SmallRingsTest, parts_of_the_area_that_touch_are_one) {
+  const Geometries part = polygon({{{9, 8}, {9.1, 8}, {9.1, 8.1}}});
+  const Geometries apart = polygon({box(20, 0, 30, 8)});
+  const Geometries overlapping = polygon({box(25, 2, 35, 6)});
+  expect_same(triangles({{}, {sea_, part}, {}}, options_), triangles({{}, {sea_}, {}}, options_));
+  expect_same(triangles({{}, {sea_, part, apart, overlapping}, {}}, options_),
+              triangles({{}, {sea_, apart, overlapping}, {}}, options_));
+}
+
+// A lake in an island in a lake in a land, and rings that touch in corners.
+TEST(rings_within, smaller_sides) {
+  Geometries all = polygon({box(0, 0, 10, 10), reversed(box(1, 1, 9, 9)), box(2, 2, 8, 8),
+                            reversed({{2, 2}, {7, 3}, {3, 7}}), box(10, 10, 12, 12)});
+  const auto within = [&](std::size_t around) {
+    std::vector<bool> is_around(5);
+    is_around[around] = true;
+    return meshing::rings_within(all.polygons, 0, is_around);
+  };
+  using Flags = std::vector<bool>;
+  EXPECT_EQ(within(0), (Flags{false, true, true, true, false}));
+  EXPECT_EQ(within(1), (Flags{false, false, true, true, false}));
+  EXPECT_EQ(within(2), (Flags{false, false, false, true, false}));
+  EXPECT_EQ(within(3), Flags(5));
+  EXPECT_EQ(within(4), Flags(5));
+}
+
+}  // namespace
+}  // namespace rondel::test
