@@ -33,7 +33,8 @@ struct SimplifyOptions {
   bool keep_boundary = false;
   /// An arc that replaces others keeps away from other corners by this share of the tolerance, from
   /// 0 to 1, or as far as the arcs were, if that is nearer: so no strait becomes a slit. A corner
-  /// that is not twice as far from the ends of the arc as from the arc does not count.
+  /// that is not twice as far from the ends of the arc as from the arc does not count, and neither do
+  /// those of rings that vanish without it.
   double clearance = 0;
 };
 

@@ -90,6 +90,19 @@ class CornerRemoval {
   }
   // Returns false if no loop could be dropped.
   bool drop_loops();
+  // Drops the loops that were dropped in other states of the network, with all of their nodes.
+  void drop_loops_of(std::span<const NodeState> others) {
+    for (std::size_t r = 0; r < network_.rings.size(); ++r) {
+      const std::span<const Index> ring = network_.rings[r];
+      const auto is_dropped = [&](Index node) { return others[node] == NodeState::dropped; };
+      if (std::ranges::none_of(ring, is_dropped)) continue;
+      for (const Index node : ring) {
+        if (is_left(node)) --num_left_;
+        states_[node] = NodeState::dropped;
+      }
+    }
+    std::erase_if(changed_, [&](Index node) { return !is_left(node); });
+  }
 
   std::vector<NodeState> take_states() { return std::move(states_); }
 
@@ -423,7 +436,13 @@ double squared_sine_below(double tolerance) {
 
 std::vector<NodeState> removed_nodes(const LineNetwork& network, std::vector<double> limits,
                                      const RemovalRules& rules, unsigned threads) {
+  std::vector<NodeState> without_clearance;
+  if (rules.drops_loops && rules.clearance > 0) {
+    // A thin loop would keep the clearance between its own sides.
+    without_clearance = removed_nodes(network, limits, {.drops_loops = true}, threads);
+  }
   CornerRemoval removal(network, std::move(limits), rules.clearance, threads);
+  if (!without_clearance.empty()) removal.drop_loops_of(without_clearance);
   do {
     removal.remove_corners();
   } while (rules.drops_loops && removal.drop_loops());

@@ -183,8 +183,7 @@ class TrianglesOfDomain {
   }
 
   void simplify() {
-    SimplifyOptions simplify{
-        .tolerance = options_.tolerance.value_or(0), .drop_small = true, .clearance = clearance};
+    SimplifyOptions simplify{.tolerance = options_.tolerance.value_or(0), .clearance = clearance};
     const auto& spacing = options_.refine.spacing;
     if (!options_.tolerance && spacing) {
       simplify.tolerance_at = [&](const Point& place) { return spacing->spacing(place) / 4; };
@@ -208,7 +207,9 @@ class TrianglesOfDomain {
     if (is_meeting) {
       if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
     }
-    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
+    SimplifyOptions rest = simplify;  // small rings are left in polygons of lines alone
+    rest.drop_small = all_.polygons.cells[end_of_area_] != all_.polygons.cells.back();
+    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, rest, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
     take_whole();
   }

@@ -574,6 +574,30 @@ TEST(simplify, arcs_keep_away_from_other_corners) {
   EXPECT_GT(num_without, 0);
 }
 
+// A thin ring does not keep the clearance between its own sides, and nothing keeps it from a ring that
+// vanishes.
+TEST(simplify, thin_rings_vanish_with_a_clearance) {
+  constexpr double tolerance = 0.01;
+  for (const int size : {5, 8, 40}) {
+    for (const double height_deg : {0.5, 0.1, 1e-3}) {
+      Shapes given;
+      for (const double lat_deg : {0.0, 0.6}) {
+        Line& ring = given.cells.emplace_back().emplace_back();
+        for (int k = 0; k < size; ++k) {
+          const double turn = 2 * pi * k / size;
+          ring.push_back(
+              unit_vector({4 * std::cos(turn), lat_deg + height_deg * std::sin(turn) / 2}));
+        }
+      }
+      for (const double clearance : {0.0, 0.25, 1.0}) {
+        const CellRings left = simplified(
+            cells_of(given), {.tolerance = tolerance, .drop_small = true, .clearance = clearance});
+        EXPECT_TRUE(left.corners.empty()) << size << " " << height_deg << " " << clearance;
+      }
+    }
+  }
+}
+
 TEST(simplify, a_shared_border_is_simplified_once_and_a_boundary_may_stay) {
   Random random(4);
   const Shapes given = coverage(random, 3, 0.1);
