@@ -145,7 +145,9 @@ class TrianglesOfDomain {
   DomainTriangles run(const MeshDomain& domain) {
     take(domain);
     if (const auto& near = options_.weld) {
-      weld([&](const Point&) { return *near; });
+      const auto near_at = [&](const Point&) { return *near; };
+      weld(near_at);
+      if (make_crossings_corners()) weld(near_at);
       require_area("the distance of welding");
     }
     simplify();
@@ -204,14 +206,20 @@ class TrianglesOfDomain {
     }
     all_.polygons = meshing::without_small_rings(all_.polygons, end_of_area_, simplify, execution_);
     take_whole();
-    if (is_meeting) {
-      if (auto meeting = meshing::meeting_in_corners(all_, execution_)) all_ = *std::move(meeting);
-    }
+    if (is_meeting) make_crossings_corners();
     SimplifyOptions rest = simplify;  // small rings are left in polygons of lines alone
     rest.drop_small = all_.polygons.cells[end_of_area_] != all_.polygons.cells.back();
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, rest, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
     take_whole();
+  }
+
+  // Gives features corners where they cross. Returns false if they meet in corners alone.
+  bool make_crossings_corners() {
+    std::optional<Geometries> meeting = meshing::meeting_in_corners(all_, execution_);
+    if (!meeting) return false;
+    all_ = *std::move(meeting);
+    return true;
   }
 
   void weld(const std::function<double(const Point&)>& near_at) {
@@ -273,9 +281,14 @@ class TrianglesOfDomain {
   // Triangulates all features, and finds the faces of the mesh. Where corners of the features have
   // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
   void triangulate() {
-    weld([](const Point&) { return meshing::rounding_of_places; });
+    const auto rounding = [](const Point&) { return meshing::rounding_of_places; };
+    weld(rounding);
     features_ = constraints_of_features(all_.lines, all_.polygons);
-    triangulate_sites();
+    if (!triangulate_sites()) {
+      if (make_crossings_corners()) weld(rounding);
+      features_ = constraints_of_features(all_.lines, all_.polygons);
+      triangulate_sites(ConstraintCrossings::split);
+    }
     const Triangulation& first = triangulation_.triangulation;
     bool is_found = false;
     if (first.dimension() == 2 && (first.num_ghost_faces() == 0 || !is_everywhere_)) {
@@ -287,7 +300,7 @@ class TrianglesOfDomain {
     }
     if (!is_found) {
       for (const Point& point : icosahedron()) features_.sites.push_back(point);
-      triangulate_sites();
+      triangulate_sites(ConstraintCrossings::split);
       regions_ = find_regions();
     }
     if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
@@ -307,14 +320,15 @@ class TrianglesOfDomain {
     });
   }
 
-  // Makes sites of crossings only if there are any, which takes longer.
-  void triangulate_sites() {
+  // Returns false if arcs cross, unless they are split there, which takes longer.
+  bool triangulate_sites(ConstraintCrossings crossings = ConstraintCrossings::refuse) {
     const Sites sites(features_.sites);
     try {
-      triangulation_ = constrained_delaunay(sites, features_.constraints, {}, execution_);
+      triangulation_ =
+          constrained_delaunay(sites, features_.constraints, {.crossings = crossings}, execution_);
+      return true;
     } catch (const CrossingConstraints&) {
-      triangulation_ = constrained_delaunay(sites, features_.constraints,
-                                            {.crossings = ConstraintCrossings::split}, execution_);
+      return false;
     }
   }
 

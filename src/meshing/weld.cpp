@@ -91,6 +91,8 @@ class Weld {
   }
 
  private:
+  static constexpr std::int64_t length_of_line = std::numeric_limits<std::int64_t>::max();
+
   // A site on a side, and its order along it: the squared distance of its foot from the end of the
   // side that has the smaller coordinates, with the opposite sign where the side begins at the other
   // one. So a side has the same chain in both directions.
@@ -123,9 +125,11 @@ class Weld {
       if (is_last && !is_ring) break;
       along += length_of(sites_[numbers_[k]], sites_[numbers_[is_last ? begin : k + 1]]);
     }
-    lengths_.push_back(is_ring ? along : std::numeric_limits<std::int64_t>::max());
+    lengths_.push_back(is_ring ? along : length_of_line);
   }
-  // True if two sites are so near along a line or a ring that this has its shape between them.
+  [[nodiscard]] bool is_line(Index row) const { return lengths_[row] == length_of_line; }
+  // True if two sites are so near along a line or a ring that this has its shape between them. Between
+  // places of a line where others are, too, it has none that a simplification could leave out.
   [[nodiscard]] bool are_of_one_shape(Index i, Index j) const {
     const std::int64_t most = std::llround(units * along_outline * near_[i]);
     const auto places_of = [&](Index site) {
@@ -133,10 +137,12 @@ class Weld {
       const auto end = std::ranges::upper_bound(on_rows_, site, {}, &PlaceOnRow::site);
       return std::span(begin, end);
     };
+    const auto of_i = places_of(i);
     const auto of_j = places_of(j);
-    for (const PlaceOnRow& a : places_of(i)) {
+    const bool are_common = of_i.size() > 1 && of_j.size() > 1;
+    for (const PlaceOnRow& a : of_i) {
       for (const PlaceOnRow& b : of_j) {
-        if (a.row != b.row) continue;
+        if (a.row != b.row || (are_common && is_line(a.row))) continue;
         const std::int64_t way = std::abs(a.along - b.along);
         if (std::min(way, lengths_[a.row] - way) <= most) return true;
       }

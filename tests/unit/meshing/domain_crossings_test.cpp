@@ -222,6 +222,31 @@ TEST(domain_crossings, one_part_is_left_where_nodes_are_filled) {
   EXPECT_EQ(made.num_small_parts, 2U);
 }
 
+// Lines that cross in one place up to rounding have one node there, and with a weld those that cross
+// nearly in one place, too.
+TEST(domain_crossings, lines_through_one_place_have_one_node) {
+  const Geometries sea = polygon({box(-5, -5, 5, 5)});
+  std::mt19937 random(2);
+  const auto in_turn = [&] {
+    return 2 * std::numbers::pi * 0x1p-32 * static_cast<double>(random());
+  };
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    const double apart = round % 2 == 0 ? 0 : 0.001;
+    std::vector<Geometries> lines;
+    const double first = in_turn();
+    for (int k = 0; k < 3; ++k) {
+      const double angle = first + std::numbers::pi / 3 * k;
+      const double lon = apart * k;
+      lines.push_back(line({{lon + 3 * std::cos(angle), 3 * std::sin(angle)},
+                            {lon - 3 * std::cos(angle), -3 * std::sin(angle)}}));
+    }
+    TrianglesOptions options = spaced(1);
+    if (round % 2 == 1) options.weld = 0.02 * std::numbers::pi / 180;
+    EXPECT_GT(shortest_edge(triangles({{}, {sea}, lines}, options)), 0.3);
+  }
+}
+
 TEST(domain_crossings, coasts_that_cross_are_simplified_where_water_is_filled) {
   std::vector<Geometries> land;
   for (const Ring& ring : std::vector<Ring>{

@@ -162,19 +162,6 @@ TEST(domain_triangles, order_and_threads_change_nothing) {
   }
 }
 
-// Returns the length of the shortest edge in degrees.
-double shortest_edge(const DomainTriangles& made) {
-  double least = 4;
-  for (const auto& [a, b, c] : made.mesh.triangles) {
-    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-      const Point& from = made.mesh.nodes[p];
-      const Point& to = made.mesh.nodes[q];
-      least = std::min(least, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
-    }
-  }
-  return 2 * std::asin(least / 2) * 180 / std::numbers::pi;
-}
-
 // Two boxes share a part of a meridian, with corners of one on a side of the other one, which is an arc
 // on the sphere: rounding leaves gaps and overlaps of 1e-16 between them.
 TEST(domain_triangles, features_that_touch_are_welded) {

@@ -83,4 +83,17 @@ inline void expect_same(const DomainTriangles& one, const DomainTriangles& other
   EXPECT_EQ(one.features, other.features);
 }
 
+// Returns the length of the shortest edge in degrees.
+inline double shortest_edge(const DomainTriangles& made) {
+  double least = 4;
+  for (const auto& [a, b, c] : made.mesh.triangles) {
+    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+      const Point& from = made.mesh.nodes[p];
+      const Point& to = made.mesh.nodes[q];
+      least = std::min(least, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
+    }
+  }
+  return 2 * std::asin(least / 2) * 180 / std::numbers::pi;
+}
+
 }  // namespace rondel::test
