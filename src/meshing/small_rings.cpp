@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "exact/vector.h"
@@ -20,8 +21,8 @@ namespace {
 
 class SmallRings {
  public:
-  SmallRings(const CellRings& polygons, std::size_t end, const SimplifyOptions& options)
-      : polygons_(polygons), options_(options), is_small_(polygons.cells[end]) {
+  SmallRings(const CellRings& polygons, std::size_t end, SimplifyOptions options)
+      : polygons_(polygons), options_(std::move(options)), is_small_(polygons.cells[end]) {
     options_.drop_small = true;
     options_.clearance = 0;
     for (std::uint64_t ring = 0; ring < is_small_.size(); ++ring) {
