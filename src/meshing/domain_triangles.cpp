@@ -204,13 +204,18 @@ class TrianglesOfDomain {
       meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
       take_whole();
     }
-    all_.polygons = meshing::without_small_rings(all_.polygons, end_of_area_, simplify, execution_);
-    take_whole();
+    drop_small_rings(0, end_of_coast_, simplify);
+    drop_small_rings(end_of_coast_, end_of_area_, simplify);
     if (is_meeting) make_crossings_corners();
     SimplifyOptions rest = simplify;  // small rings are left in polygons of lines alone
     rest.drop_small = all_.polygons.cells[end_of_area_] != all_.polygons.cells.back();
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, rest, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    take_whole();
+  }
+
+  void drop_small_rings(std::size_t begin, std::size_t end, const SimplifyOptions& simplify) {
+    all_.polygons = meshing::without_small_rings(all_.polygons, begin, end, simplify, execution_);
     take_whole();
   }
 

@@ -21,11 +21,12 @@ namespace {
 
 class SmallRings {
  public:
-  SmallRings(const CellRings& polygons, std::size_t end, SimplifyOptions options)
+  // The rings are those of the cells from `begin` to before `end`.
+  SmallRings(const CellRings& polygons, std::size_t begin, std::size_t end, SimplifyOptions options)
       : polygons_(polygons), options_(std::move(options)), is_small_(polygons.cells[end]) {
     options_.drop_small = true;
     options_.clearance = 0;
-    for (std::uint64_t ring = 0; ring < is_small_.size(); ++ring) {
+    for (std::uint64_t ring = polygons.cells[begin]; ring < polygons.cells[end]; ++ring) {
       if (!is_surely_wide(overlay::points_of_ring(polygons_, ring))) looked_at_.push_back(ring);
     }
   }
@@ -108,13 +109,13 @@ class SmallRings {
 
 }  // namespace
 
-CellRings without_small_rings(const CellRings& polygons, std::size_t end,
+CellRings without_small_rings(const CellRings& polygons, std::size_t begin, std::size_t end,
                               const SimplifyOptions& options, const Execution& execution) {
-  const std::vector<bool> is_small = SmallRings(polygons, end, options).find(execution);
+  const std::vector<bool> is_small = SmallRings(polygons, begin, end, options).find(execution);
   CellRings result;
   result.points = polygons.points;
   for (std::size_t cell = 0; cell < polygons.num_cells(); ++cell) {
-    if (cell >= end) {
+    if (cell < begin || cell >= end) {
       result.append_cell(polygons, cell);
       continue;
     }

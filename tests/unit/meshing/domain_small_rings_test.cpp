@@ -129,6 +129,17 @@ TEST_F(SmallRingsTest, parts_of_the_area_that_touch_are_one) {
               triangles({{}, {sea_, apart, overlapping}, {}}, options_));
 }
 
+// An islet and a part of the area that cross do not keep each other.
+TEST_F(SmallRingsTest, small_parts_of_the_area_vanish_where_islets_cross_them) {
+  const Geometries part = polygon({box(12, 0, 12.1, 0.1)});
+  for (const Geometries& islet :
+       {polygon({box(12.05, 0.05, 12.15, 0.15)}), polygon({box(12, -0.02, 12.1, 0.05)}),
+        polygon({box(11.9, -0.1, 12.2, 0.2)})}) {
+    expect_same(triangles({{islet}, {sea_, part}, {}}, options_),
+                triangles({{}, {sea_}, {}}, options_));
+  }
+}
+
 // A lake in an island in a lake in a land, and rings that touch in corners.
 TEST(rings_within, smaller_sides) {
   Geometries all = polygon({box(0, 0, 10, 10), reversed(box(1, 1, 9, 9)), box(2, 2, 8, 8),
