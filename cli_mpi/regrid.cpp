@@ -134,13 +134,6 @@ void add_values(CLI::App& command, RegridFileOptions& options) {
       ->check(CLI::Range(0, 9));
 }
 
-std::string history_of(const RegridArguments& arguments) {
-  std::string text = "rondel regrid " + arguments.in + " " + arguments.target;
-  const auto& method = arguments.options.method;
-  if (method) text += " --method " + word_of(name_of(*method));
-  return text;
-}
-
 }  // namespace
 
 CLI::App& add_regrid(CLI::App& tool, RegridArguments& arguments) {
@@ -220,7 +213,7 @@ void regrid(Communicator& ranks, const RegridArguments& arguments, const Executi
   const auto start = std::chrono::steady_clock::now();
   RegridFileOptions options = arguments.options;
   if (!arguments.source.empty()) options.source = FileName{arguments.source, {}};
-  options.history = history_of(arguments);
+  options.history = regrid_command(arguments.in, arguments.target, options);
   const RegridFileReport report = regrid_file(ranks, {arguments.in, {}}, {arguments.target, {}},
                                               {arguments.out, {}}, options, execution);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;

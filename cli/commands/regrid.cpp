@@ -37,13 +37,6 @@ struct RegridCommandOptions {
   ExtrapolateOptions extrapolate;
 };
 
-std::string history_of(const RegridCommandOptions& options) {
-  std::string text = "rondel regrid " + options.common.input + " " + options.target;
-  if (options.regrid.method) text += " --method " + word_of(name_of(*options.regrid.method));
-  if (!options.statistics.empty()) text += " --statistics " + options.statistics;
-  return text;
-}
-
 // Regrids, and reports the numbers. Throws UsageError for a format in which no fields are written,
 // FileError for files that cannot be read or do not fit the method.
 ExitStatus run_regrid(const RegridCommandOptions& options) {
@@ -53,9 +46,9 @@ ExitStatus run_regrid(const RegridCommandOptions& options) {
   Job job(common);
   RegridFileOptions regrid = options.regrid;
   if (!options.source.empty()) regrid.source = FileName{options.source, {}};
-  regrid.history = history_of(options);
   if (!options.statistics.empty()) regrid.statistics = zonal_statistics_of(options.statistics);
   regrid.extrapolation = options.extrapolate.wanted();
+  regrid.history = regrid_command(common.input, options.target, regrid);
   RegridFileReport done_work;
   job.time(Stage::query, [&] {
     done_work = regrid_file(common.source(), {options.target, {}}, common.target(), regrid,

@@ -137,4 +137,11 @@ RONDEL_API RegridFileReport regrid_file(const FileName& in, const FileName& targ
                                         const FileName& out, const RegridFileOptions& options = {},
                                         const Execution& execution = {});
 
+/// Returns the command that does the same: "rondel regrid in.nc healpix:7 --method linear", a line for
+/// RegridFileOptions::history. It has all options that change values, unless they are as by default,
+/// and none of memory, tiles and the format of the output.
+/// \param in, target  the names of the input and the target
+RONDEL_API std::string regrid_command(const std::string& in, const std::string& target,
+                                      const RegridFileOptions& options = {});
+
 }  // namespace rondel

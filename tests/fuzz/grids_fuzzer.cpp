@@ -271,6 +271,9 @@ void test_files(ByteSource& source, const NamedGrid& from, const std::string& ta
   constexpr FieldMethod methods[] = {FieldMethod::conservative, FieldMethod::linear,
                                      FieldMethod::largest_share, FieldMethod::nearest};
   options.method = methods[source.below(4)];
+  options.history = regrid_command(in, target, options);
+  require(options.history.find(" --source " + from.name()) != std::string::npos,
+          "a command names the source");
   const RegridFileReport report = regrid_file({in, {}}, {target, {}}, {out, {}}, options);
   require(report.fields == 2 && report.sources == from.num_cells(), "all fields are carried");
   std::filesystem::remove(tiles + ".partial");
