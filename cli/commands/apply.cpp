@@ -300,7 +300,11 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   FieldSet out;
   out.num_points = weights.num_rows();
   out.arrays = in.fields().arrays;
-  for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
+  const bool are_choices = choose_values(weights);
+  for (FieldArray& array : out.arrays) {
+    array.is_single = false;  // sums are written as doubles
+    if (!are_choices) remove_flags(array);
+  }
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   out.fill = options.apply.fill;

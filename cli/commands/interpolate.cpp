@@ -156,6 +156,14 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
            [&] { write_fields(options.common.target(), fields, side, options.netcdf); });
 }
 
+// True if each target gets the value of one site, so that flags stay flags.
+bool gives_values_of_sites(const InterpolateOptions& options) {
+  const auto& filling = options.extrapolate.method;
+  return !options.regrid && options.interpolation.method == Method::nearest &&
+         options.interpolation.shared_place != SharedPlace::mean &&
+         (!filling || *filling == Extrapolation::nearest);
+}
+
 // Interpolates the fields of a netCDF file, for all indices of their other dimensions; one field at
 // a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options,
@@ -174,7 +182,10 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   FieldSet out;
   out.num_points = targets.table.sites.size();
   out.arrays = in.fields().arrays;
-  for (FieldArray& array : out.arrays) array.is_single = false;  // sums are written as doubles
+  for (FieldArray& array : out.arrays) {
+    array.is_single = false;  // sums are written as doubles
+    if (!gives_values_of_sites(options)) remove_flags(array);
+  }
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);

@@ -207,6 +207,24 @@ RONDEL_API std::string lack_of_vectors(const VectorComponent& east, const Vector
 /// `_FillValue` ...
 RONDEL_API bool is_attribute_of_places(std::string_view name);
 
+/// Returns a sentence if the longitudes or latitudes of a data set count from another meridian than that
+/// of Greenwich (CF, appendix F): a variable with the dimensions of the coordinate has a `grid_mapping`
+/// whose `longitude_of_prime_meridian` is not 0. Such places are refused; otherwise the text is empty.
+/// \param coordinate  the name of the longitudes or latitudes
+/// \param meridians  the names of the variables that have that attribute, and its numbers
+RONDEL_API std::string remark_on_meridian(
+    std::span<const VariableHeader> variables, std::string_view coordinate,
+    std::span<const std::pair<std::string, double>> meridians);
+
+/// True for an attribute that tells of the values of a field, so that a field of other values does not
+/// have it: the type that they stand for (xarray's `dtype`), their range and number (`minimum`,
+/// `valid_count` ...). Variables whose values stay as they are, such as axes, keep it.
+RONDEL_API bool is_attribute_of_values(std::string_view name);
+
+/// True for an attribute that says what values mean that stand for categories (CF, section 3.5):
+/// `flag_values`, `flag_masks`, `flag_meanings`. Means of such values do not have it.
+RONDEL_API bool is_attribute_of_flags(std::string_view name);
+
 /// True for an attribute that names other variables, or dimensions, and that with_names() knows:
 /// `coordinates`, `ancillary_variables`, `bounds`, `climatology`, `formula_terms`, `compress`.
 RONDEL_API bool is_attribute_of_names(std::string_view attribute);

@@ -54,6 +54,10 @@ struct FieldArray {
   [[nodiscard]] RONDEL_API std::string lengths_in_words() const;
 };
 
+/// Removes the attributes that say what values mean that stand for categories (flag_values,
+/// flag_masks, flag_meanings), which means of such values do not have.
+RONDEL_API void remove_flags(FieldArray& array);
+
 /// Returns a name for each field of an array, for use as a column: the name of the array if it has
 /// one field, or else that with the field's place on each axis, "tas_2001-07-15_850". An axis that
 /// the file does not have, or that has a number twice, is replaced by the index.

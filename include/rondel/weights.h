@@ -116,4 +116,9 @@ RONDEL_API Weights with_rows(const Weights& weights, std::span<const std::int32_
 /// \throws InvalidInput if the weights are not in compressed rows, or the lengths differ.
 RONDEL_API Weights without_columns(const Weights& weights, std::span<const std::int32_t> mask);
 
+/// True if the weights give each target the value of one site, or none: beside zeros a row has one
+/// entry, which is 1. What the values stand for, as numbers of categories, then holds at the targets.
+/// \throws InvalidInput if the weights are not in compressed rows
+RONDEL_API bool choose_values(const Weights& weights);
+
 }  // namespace rondel

@@ -62,6 +62,22 @@ void require_sphere(const io::NetcdfReader& file) {
 
 namespace {
 
+// Throws BadValue if places count from another meridian than that of Greenwich.
+void require_greenwich(const io::NetcdfReader& file, const io::VariableInFile& coordinate) {
+  std::vector<std::pair<std::string, double>> meridians;
+  for (const io::VariableInFile& variable : file.variables()) {
+    const io::NetcdfAttribute* const attribute =
+        io::find_attribute(variable.attributes, "longitude_of_prime_meridian");
+    if (attribute == nullptr || attribute->numbers.empty()) continue;
+    if (attribute->numbers.front() != 0) {
+      meridians.emplace_back(variable.name, attribute->numbers.front());
+    }
+  }
+  if (meridians.empty()) return;
+  const std::string why = remark_on_meridian(headers_of(file), coordinate.name, meridians);
+  if (!why.empty()) throw io::BadValue(why);
+}
+
 // Returns the degrees in a unit of the variable, by its own units, those of relatives, or the usual
 // ones.
 double degrees_per_unit_of(const io::NetcdfReader& file, const io::VariableInFile& variable,
@@ -91,6 +107,7 @@ std::vector<double> degrees_of(const io::NetcdfReader& file, const io::VariableI
                                UsualUnits usual,
                                std::initializer_list<const io::VariableInFile*> relatives) {
   require_sphere(file);
+  require_greenwich(file, variable);
   double factor = 1;
   try {
     factor = degrees_per_unit_of(file, variable, usual, relatives);

@@ -20,7 +20,9 @@
 #include "formats/netcdf_cells.h"
 #include "formats/variable_index.h"
 #include "formats/weight_formats.h"
+#include "io/number.h"
 #include "rondel/named_grids.h"
+#include "system/message_text.h"
 
 namespace rondel {
 namespace {
@@ -206,6 +208,13 @@ bool is_attribute_of_places(std::string_view name) {
       "coordinates", "bounds", "climatology", "cell_measures", "grid_mapping", "formula_terms",
       "ancillary_variables", "mesh", "location", "compress", "interpolation", "grid",
       "actual_range", "number_of_grid_in_reference", "number_of_grid_used", "uuidOfHGrid",
+      "featureType",
+      // of CMIP
+      "nominal_resolution", "grid_label",
+      // of WRF; its attributes of the vertical grid stay
+      "stagger", "MemoryOrder", "GRIDTYPE", "MAP_PROJ", "MAP_PROJ_CHAR", "DX", "DY", "CEN_LAT",
+      "CEN_LON", "TRUELAT1", "TRUELAT2", "MOAD_CEN_LAT", "STAND_LON", "POLE_LAT", "POLE_LON",
+      "I_PARENT_START", "J_PARENT_START",
       // of MPAS
       "on_a_sphere", "sphere_radius", "is_periodic", "x_period", "y_period", "mesh_spec", "mesh_id",
       // of how numbers are stored
@@ -218,11 +227,62 @@ bool is_attribute_of_places(std::string_view name) {
       // of own files
       grid_attribute, formats::source_corners_name, formats::target_corners_name};
   constexpr std::string_view beginnings[] = {
-      "CDI_grid_",       "GRIB_latitudeOf",           "GRIB_longitudeOf",         "GRIB_iDirection",
-      "GRIB_jDirection", "geospatial_lat_resolution", "geospatial_lon_resolution"};
+      "CDI_grid_",       "GRIB_latitudeOf", "GRIB_longitudeOf", "GRIB_iDirection",
+      "GRIB_jDirection", "geospatial_lat_", "geospatial_lon_",  "geospatial_bounds",
+      "WEST-EAST_",      "SOUTH-NORTH_",    "WEST_EAST_",       "SOUTH_NORTH_"};
   return std::ranges::find(names, name) != std::end(names) ||
          std::ranges::any_of(
              beginnings, [&](std::string_view beginning) { return name.starts_with(beginning); });
+}
+
+bool is_attribute_of_values(std::string_view name) {
+  constexpr std::string_view names[] = {"dtype",
+                                        "minimum",
+                                        "maximum",
+                                        "data_min",
+                                        "data_max",
+                                        "actual_min",
+                                        "actual_max",
+                                        "actual_range",
+                                        "valid_count",
+                                        "STATISTICS_MINIMUM",
+                                        "STATISTICS_MAXIMUM",
+                                        "STATISTICS_MEAN",
+                                        "STATISTICS_STDDEV",
+                                        "STATISTICS_VALID_PERCENT"};
+  return std::ranges::find(names, name) != std::end(names);
+}
+
+bool is_attribute_of_flags(std::string_view name) {
+  return name == "flag_values" || name == "flag_masks" || name == "flag_meanings";
+}
+
+std::string remark_on_meridian(std::span<const VariableHeader> variables,
+                               std::string_view coordinate,
+                               std::span<const std::pair<std::string, double>> meridians) {
+  const auto found = std::ranges::find(variables, coordinate, &VariableHeader::name);
+  if (found == variables.end()) return {};
+  const auto has_dimensions = [&](const VariableHeader& variable) {
+    return std::ranges::all_of(found->dimensions, [&](const std::string& dimension) {
+      return std::ranges::count(variable.dimensions, dimension) > 0;
+    });
+  };
+  for (const VariableHeader& variable : variables) {
+    for (std::string& word : formats::words_of(variable.text("grid_mapping"))) {
+      if (word.ends_with(':')) word.pop_back();
+      // In a group of netCDF the mapping is called group/crs.
+      const auto known = std::ranges::find_if(meridians, [&](const auto& mapping) {
+        return mapping.first == word || mapping.first.ends_with('/' + word);
+      });
+      if (known == meridians.end() || known->second == 0 || !has_dimensions(variable)) continue;
+      const std::string number = system::shortest_text(known->second);
+      return "the longitudes count from the meridian at " + number +
+             " degrees east of Greenwich (longitude_of_prime_meridian of variable " +
+             io::in_quotes(word) + "): add " + number +
+             " to them, and set the attribute to 0 or remove it";
+    }
+  }
+  return {};
 }
 
 bool is_planar(std::span<const std::pair<std::string, std::string>> texts) {

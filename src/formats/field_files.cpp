@@ -16,6 +16,7 @@
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/number.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 
@@ -69,6 +70,11 @@ std::string FieldArray::lengths_in_words() const {
     text += (d == 0 ? "" : ", ") + dimensions[d] + " " + std::to_string(shape[d]);
   }
   return text;
+}
+
+void remove_flags(FieldArray& array) {
+  std::erase_if(array.numbers, [](const auto& a) { return is_attribute_of_flags(a.name); });
+  std::erase_if(array.attributes, [](const auto& a) { return is_attribute_of_flags(a.first); });
 }
 
 // A file that is open, with its fields.

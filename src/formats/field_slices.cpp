@@ -43,12 +43,23 @@ bool is_of_storage(std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Returns the texts that still hold for values at other points; they may be empty, as WRF's `stagger`.
+// What has some attributes. An array without points keeps its values: an axis, for example.
+enum class AttributesOf : std::uint8_t { file, field, array_without_points };
+
+// True if an attribute does not hold for values at other points.
+bool is_lost(std::string_view name, AttributesOf of) {
+  if (is_of_storage(name)) return true;
+  if (of == AttributesOf::array_without_points && is_attribute_of_values(name)) return false;
+  return is_attribute_of_places(name) ||
+         (of == AttributesOf::field && is_attribute_of_values(name));
+}
+
+// Returns the texts that still hold for values at other points; they may be empty.
 std::vector<std::pair<std::string, std::string>> kept_attributes(
-    std::span<const io::NetcdfAttribute> attributes) {
+    std::span<const io::NetcdfAttribute> attributes, AttributesOf of) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
-    if (is_attribute_of_places(attribute.name) || is_of_storage(attribute.name)) continue;
+    if (is_lost(attribute.name, of)) continue;
     const bool is_text = attribute.type == io::NetcdfType::text;
     if (is_text) kept.emplace_back(attribute.name, attribute.text);
   }
@@ -61,17 +72,13 @@ bool are_doubles(const io::NetcdfAttribute& attribute) {
   });
 }
 
-// Returns the numbers that still hold. The range of values is another one at other points, while axes and what
-// else is not `at_points` keep theirs. Integers of 64 bits are left out if they are no doubles.
+// Returns the numbers that still hold. Integers of 64 bits are left out if they are no doubles.
 std::vector<NumericAttribute> kept_numbers(std::span<const io::NetcdfAttribute> attributes,
-                                           bool at_points) {
+                                           AttributesOf of) {
   std::vector<NumericAttribute> kept;
   for (const io::NetcdfAttribute& attribute : attributes) {
     const std::string& name = attribute.name;
-    const bool is_range = name == "actual_range" && !at_points;
-    const bool is_lost = (is_attribute_of_places(name) && !is_range) || is_of_storage(name) ||
-                         !are_doubles(attribute);
-    if (!is_lost && !attribute.numbers.empty()) {
+    if (!is_lost(name, of) && are_doubles(attribute) && !attribute.numbers.empty()) {
       kept.push_back({name, attribute.numbers, std::string(name_of(attribute.type))});
     }
   }
@@ -128,8 +135,9 @@ FieldArray array_of(const io::NetcdfReader& file, const io::VariableInFile& vari
     array.dimensions.push_back(written_name(file.dimensions()[variable.dimensions[d]].name));
     array.shape.push_back(variable.shape[d]);
   }
-  array.attributes = kept_attributes(variable.attributes);
-  array.numbers = kept_numbers(variable.attributes, at_points);
+  const auto of = at_points ? AttributesOf::field : AttributesOf::array_without_points;
+  array.attributes = kept_attributes(variable.attributes, of);
+  array.numbers = kept_numbers(variable.attributes, of);
   array.is_single = is_of_floats(variable);
   return array;
 }
@@ -175,8 +183,8 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
       are_all_wanted_(wanted.names.empty()),
       layouts_(file, wanted, variables_to_read(file, wanted.names)) {
   fields_.num_points = wanted.num_points;
-  fields_.attributes = kept_attributes(file.attributes());
-  fields_.numbers = kept_numbers(file.attributes(), true);
+  fields_.attributes = kept_attributes(file.attributes(), AttributesOf::file);
+  fields_.numbers = kept_numbers(file.attributes(), AttributesOf::file);
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.is_unlimited) fields_.unlimited.push_back(written_name(dimension.name));
   }

@@ -13,6 +13,7 @@
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 
 namespace rondel::formats {
@@ -42,16 +43,12 @@ void require_places_of(const FileName& in, const RegridSide& side) {
 
 }  // namespace
 
-bool is_of_flags(std::string_view attribute) {
-  return attribute == "flag_values" || attribute == "flag_masks" || attribute == "flag_meanings";
-}
-
 bool has_flags(const FieldArray& array) {
   const auto is_text_of_flags = [](const auto& attribute) {
-    return is_of_flags(attribute.first) && !attribute.second.empty();
+    return is_attribute_of_flags(attribute.first) && !attribute.second.empty();
   };
   return std::ranges::any_of(array.attributes, is_text_of_flags) ||
-         std::ranges::any_of(array.numbers, is_of_flags, &NumericAttribute::name);
+         std::ranges::any_of(array.numbers, is_attribute_of_flags, &NumericAttribute::name);
 }
 
 std::vector<std::string> wanted_variables(const FileName& in,

@@ -24,8 +24,6 @@ std::vector<std::string> wanted_variables(const FileName& in,
 std::unique_ptr<FieldFile> open_fields(const FileName& in, const std::vector<std::string>& names,
                                        const RegridSide& side);
 
-// True for an attribute that says what values mean that stand for categories (CF, section 3.5).
-bool is_of_flags(std::string_view attribute);
 // True if the values of an array stand for categories.
 bool has_flags(const FieldArray& array);
 

@@ -146,7 +146,7 @@ class RegridJob {
     report_.targets = target_.num_places();
     const FieldSet& in = fields_->fields();
     const FieldSet written =
-        formats::fields_at_targets(in, std::vector(in.arrays), source_, target_, options_.history);
+        formats::fields_at_targets(in, arrays_at_targets(), source_, target_, options_.history);
     make_plan();
     fields_->keep_chunks(
         static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
@@ -241,6 +241,20 @@ class RegridJob {
             .have_parallels = side.has_parallels(),
             .have_axes = side.axes() != nullptr,
             .are_stored = side.num_stored() > 0};
+  // Returns the arrays of the output without values. Flags stay flags where each target has the value
+  // of one source.
+  [[nodiscard]] std::vector<FieldArray> arrays_at_targets() const {
+    std::vector<FieldArray> arrays = fields_->fields().arrays;
+    const auto& filling = options_.extrapolation;
+    const bool is_mixed = filling && filling->method != Extrapolation::nearest;
+    for (FieldArray& array : arrays) {
+      const FieldMethod method = method_of(array);
+      const bool is_choice = method == FieldMethod::largest_share || method == FieldMethod::nearest;
+      if (!is_choice || is_mixed) remove_flags(array);
+    }
+    return arrays;
+  }
+
   }
 
   // True if a tile needs consecutive sources. Extrapolation needs all of them.

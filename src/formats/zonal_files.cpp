@@ -105,10 +105,7 @@ std::string squared(const std::string& units) {
 FieldArray array_of_statistic(const FieldArray& array, const ZonalStatistic& statistic) {
   FieldArray made = array;
   made.name += '_' + statistic.name();
-  if (!has_values_of_cells(statistic.operation)) {
-    std::erase_if(made.numbers, [](const auto& a) { return is_of_flags(a.name); });
-    std::erase_if(made.attributes, [](const auto& a) { return is_of_flags(a.first); });
-  }
+  if (!has_values_of_cells(statistic.operation)) remove_flags(made);
   if (statistic.operation == ZonalOperation::count ||
       statistic.operation == ZonalOperation::fraction ||
       statistic.operation == ZonalOperation::variety) {

@@ -395,4 +395,16 @@ Weights without_columns(const Weights& weights, std::span<const std::int32_t> ma
   return with_rows(weights, is_kept);
 }
 
+bool choose_values(const Weights& weights) {
+  require_rows(weights);
+  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
+    std::size_t number = 0;
+    for (std::uint64_t k = weights.offsets[r]; k < weights.offsets[r + 1]; ++k) {
+      if (weights.values[k] == 0) continue;
+      if (weights.values[k] != 1 || ++number > 1) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace rondel

@@ -147,6 +147,13 @@ void test_variables(const std::vector<VariableHeader>& headers) {
                 std::ranges::all_of(pairs, has_it),
             "the attribute coordinates has the last word");
     (void)is_attribute_of_places(headers[i].name);
+    require(!is_attribute_of_flags(headers[i].name) || !is_attribute_of_values(headers[i].name),
+            "flags are no range");
+    // Any variable may be a grid mapping.
+    const std::pair<std::string, double> meridian = {headers[i].name, 7.5};
+    const std::string why = remark_on_meridian(headers, headers.front().name, {&meridian, 1});
+    require(why.empty() || why.find(" 7.5 degrees east") != std::string::npos,
+            "a remark says which meridian it is");
     (void)is_planar(headers[i].texts);
   }
 }

@@ -15,6 +15,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
+#include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -280,6 +281,10 @@ void test_weights(std::string_view bytes) {
     for (const FieldArray& array : fields.arrays) {
       require(array.values.size() == 4 * array.num_fields(), "a field has a value a point");
       require(names_of_fields(array, fields.axes).size() == array.num_fields(), "and a name");
+      FieldArray without = array;
+      remove_flags(without);
+      require(std::ranges::none_of(without.numbers, is_attribute_of_flags, &NumericAttribute::name),
+              "no flag is left");
       require(array.lengths_in_words().empty() == array.dimensions.empty(), "and lengths");
     }
     if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});

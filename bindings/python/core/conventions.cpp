@@ -234,6 +234,19 @@ void add_attributes(nb::module_& module) {
   module.def(
       "is_attribute_of_places",
       [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));
+  module.def(
+      "remark_on_meridian",
+      [](const std::vector<HeaderIn>& variables, const std::string& coordinate,
+         const std::vector<std::pair<std::string, double>>& meridians) {
+        return remark_on_meridian(headers_of(variables), coordinate, meridians);
+      },
+      nb::arg("variables"), nb::arg("coordinate"), nb::arg("meridians"));
+  module.def(
+      "is_attribute_of_values",
+      [](const std::string& name) { return is_attribute_of_values(name); }, nb::arg("name"));
+  module.def(
+      "is_attribute_of_flags", [](const std::string& name) { return is_attribute_of_flags(name); },
+      nb::arg("name"));
 }
 
 }  // namespace

@@ -117,6 +117,7 @@ void add_weights(nb::module_& module) {
            nb::arg("columns").noconvert(), nb::arg("num_columns"))
       .def("with_rows", &weights_with_rows, nb::arg("mask").noconvert(), nb::arg("others").none())
       .def("without_columns", &weights_without_columns, nb::arg("mask").noconvert())
+      .def("choose_values", [](const Weights& self) { return choose_values(self); })
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
            nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"));
   module.def(

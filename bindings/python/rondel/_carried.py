@@ -32,6 +32,8 @@ How: TypeAlias = Literal["sum", "largest_share", "by_kind"]
 _AWAY = "as their longitudes and latitudes are not those of the source"
 _ELSEWHERE = "as they are at other places than the source"
 _MEASURES = "as they are areas or volumes of cells"
+# The attribute of files whose cells have such corners, too.
+_MADE_CORNERS = "made half way between the centers, as the file has none"
 # The attributes that name variables of a Dataset, or `compress` its dimensions; and the one that
 # xarray understands.
 _LISTED = "coordinates"
@@ -55,14 +57,16 @@ def carried(
     unmapped: float = np.nan,
     keep_attrs: bool = True,
     how: How = "sum",
+    are_chosen: bool = False,
     output_chunks: OutputChunks = None,
     coincident: IntArray | None = None,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
     contributes to, while those that need a missing value have NaN. `coincident` has pairs of
     sources in one place, which have the first value that is there. With the
-    `how` "by_kind" arrays of flags get the value of the largest part. Arrays of Dask stay lazy, in
-    blocks of the targets as `output_chunks` says.
+    `how` "by_kind" arrays of flags get the value of the largest part. Flags stay flags there, and
+    where `are_chosen` says that each target has the value of one source. Arrays of Dask stay lazy,
+    in blocks of the targets as `output_chunks` says.
     """
     data = unpacked(data)
     source.require_same(data)
@@ -93,6 +97,9 @@ def carried(
             _kind(values),
         )
 
+    def is_largest(array: xarray.DataArray) -> bool:
+        return how == "largest_share" or (how == "by_kind" and _has_flags(array))
+
     def moved(array: xarray.DataArray) -> xarray.DataArray:
         _require_dimensions(array, source, wanted)
         if "scale_factor" in array.attrs or "add_offset" in array.attrs:
@@ -111,14 +118,14 @@ def carried(
             kwargs={
                 "name": "the data" if array.name is None else f"the values of {array.name!r}",
                 "marker": missing_marker(array),
-                "is_largest": how == "largest_share" or (how == "by_kind" and _has_flags(array)),
+                "is_largest": is_largest(array),
             },
         )
-        # These are of the numbers in a file, and may be of packed ones.
+        are_flags = are_chosen or is_largest(array)
         found.attrs = {
             name: text
             for name, text in found.attrs.items()
-            if name not in OF_VALUES and not _core.is_attribute_of_places(str(name))
+            if _holds_at_targets(str(name), are_flags=are_flags)
         }
         found = found.drop_vars(mappings(found)).assign_coords(wanted.coordinates)
         if not mapping:
@@ -167,6 +174,9 @@ def carried(
             for name, text in whole.attrs.items()
             if not _core.is_attribute_of_places(str(name))
         }
+        for name, side in (("source_corners", source), ("target_corners", wanted)):
+            if side.are_corners_made:
+                whole.attrs[name] = _MADE_CORNERS
     else:
         whole = whole.drop_attrs(deep=False)
     whole = in_order(whole, data)
@@ -286,10 +296,18 @@ def _with_values_that_are_there(values: Any, coincident: IntArray) -> Any:
     return values
 
 
+def _holds_at_targets(name: str, *, are_flags: bool) -> bool:
+    """Whether an attribute of a field holds for its values at other places. Those of OF_VALUES are
+    of the numbers in a file, and may be of packed ones.
+    """
+    if _core.is_attribute_of_places(name) or _core.is_attribute_of_values(name):
+        return False
+    return name not in OF_VALUES and (are_flags or not _core.is_attribute_of_flags(name))
+
+
 def _has_flags(array: xarray.DataArray) -> bool:
     """Whether the numbers stand for categories, by CF (section 3.5)."""
-    names = ("flag_values", "flag_masks", "flag_meanings")
-    return any(str(array.attrs.get(name, "")) for name in names)
+    return any(str(array.attrs[n]) for n in array.attrs if _core.is_attribute_of_flags(str(n)))
 
 
 def _is_field(array: xarray.DataArray, source: Places) -> bool:

@@ -45,6 +45,19 @@ def _headers(data: Any) -> list[tuple[Any, ...]]:
     return headers
 
 
+def _require_greenwich(data: Any, headers: list[tuple[Any, ...]], lon: str) -> None:
+    """Refuses longitudes that a grid mapping counts from another meridian than that of Greenwich."""
+    known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
+    name = "longitude_of_prime_meridian"
+    meridians = [
+        (str(mapping), float(np.atleast_1d(item.attrs[name])[0]))
+        for mapping, item in known.items()
+        if np.atleast_1d(item.attrs.get(name, "")).dtype.kind in "iuf"
+    ]
+    if why := _core.remark_on_meridian(headers, lon, meridians) if meridians else "":
+        raise ValueError(why)
+
+
 _VALUES = "values of a DataArray"
 
 
@@ -83,6 +96,7 @@ class Coordinates:
                 raise ValueError(f"{texts} may be the {standard_name}s: say {kind}=NAME")
         indices, units, self.are_axes, _ = pairs[0]
         self.lon_name, self.lat_name = names[indices[0]], names[indices[1]]
+        _require_greenwich(data, headers, self.lon_name)
         self._data = data
         self._bounds = [None if k < 0 else names[k] for k in indices[2:]]
         self._units = units

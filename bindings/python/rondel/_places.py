@@ -520,11 +520,18 @@ class Places:
         nodes = nodes.reshape(rows, columns, 2)
         return nodes[..., 0], nodes[..., 1]
 
+    @property
+    def are_corners_made(self) -> bool:
+        """Whether the corners of cells are none that the data have, but made from the centers."""
+        if self._cells is not None:
+            return bool(self._cells._cells.facts.are_corners_made)
+        has_cells = self._named_cells is not None or self.are_axes or self._found.have_bounds
+        return self._corners == "made" and not has_cells
+
     def _described(self, cells: CellSet, mask: BoolArray | None) -> CellSet:
         """The cells with these places as their centers, and which of them take part."""
         kept = np.zeros(0) if mask is None else mask.reshape(-1)
-        are_made = self._corners == "made" and not self.are_axes and not self._found.have_bounds
-        facts = {"mask": kept.astype(np.int32), "are_corners_made": are_made}
+        facts = {"mask": kept.astype(np.int32), "are_corners_made": self.are_corners_made}
         centers = self.pairs()
         if self._located is not None and not self._cells_need_places:
             own = np.asarray(cells._degrees())

@@ -19,6 +19,7 @@ from ._geometries import Corners, Invalid, require_rules
 from ._native import (
     EXTRAPOLATIONS,
     Extrapolation,
+    esmf_name,
     extrapolated,
     limits_of_xesmf,
     require_limits,
@@ -407,6 +408,7 @@ class Regridder(Described):
             "unmapped": self._unmapped,
             "keep_attrs": keep_attrs,
             "how": how,
+            "are_chosen": self._are_chosen(),
             "output_chunks": output_chunks,
             "coincident": self._coincident,
         }
@@ -442,6 +444,12 @@ class Regridder(Described):
             source.require_places_of(data)
         found = carried(data, self._applied, source, self._target, **options)
         return found if is_labeled else found.data
+
+    def _are_chosen(self) -> bool:
+        """Whether each target has the value of one source, so that flags stay flags."""
+        filling = self._extrap_method
+        is_single = filling is None or esmf_name(filling) == "nearest_s2d"
+        return self.method == "nearest_s2d" and is_single
 
     def to_netcdf(self, path: Path | None = None) -> None:
         """Writes the weights in the format of ESMF, which `weights` and other programs read.

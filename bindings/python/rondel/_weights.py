@@ -326,6 +326,10 @@ class Weights(Described):
             self._weights.with_rows(mask, None if others is None else others._weights)
         )
 
+    def _choose_values(self) -> bool:
+        """Whether each target has the value of one site, or none."""
+        return bool(self._weights.choose_values())
+
     def _without_columns(self, is_kept: BoolArray) -> Weights:
         """The same with empty rows where a column is needed for which `is_kept` is false."""
         return Weights._of(self._weights.without_columns(np.ascontiguousarray(is_kept, np.int32)))

@@ -199,6 +199,7 @@ class _Zones:
         self.dims = (_ZONE, _STATISTIC)
         self.shape = (number, len(names))
         self.coordinates: dict[str, Any] = {}
+        self.are_corners_made = False
         self.mapping: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
 
     def bounds(self) -> dict[Hashable, Any]:

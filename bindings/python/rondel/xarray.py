@@ -154,7 +154,15 @@ class RondelAccessor:
             idle = sorted({*options, *(() if method is None else ("method",))} - _OF_CALLS)
             if idle:
                 warn_caller(f"weights are given, so these change nothing: {', '.join(idle)}")
-        return carried(self._data, weights, source, wanted, skipna=skipna, max_missing=max_missing)
+        return carried(
+            self._data,
+            weights,
+            source,
+            wanted,
+            skipna=skipna,
+            max_missing=max_missing,
+            are_chosen=weights._choose_values(),
+        )
 
     def regrid(self, target: Any, method: FieldMethod | None = None, **options: Any) -> Any:
         """Brings the data to another grid.

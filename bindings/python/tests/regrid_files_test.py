@@ -594,10 +594,10 @@ def test_attributes_that_are_numbers_are_those_of_data(made, tmp_path, end):
 
 @pytest.mark.parametrize("end", ["nc", "nc4"])
 def test_texts_may_be_empty(made, tmp_path, end):
-    """As WRF's `stagger`, which is empty for what is in the middle of its cells."""
+    """As WRF's `description`, which is empty for what needs none."""
     _, data = made
-    empty = {"stagger": "", "units": "", "flag_meanings": "", "cell_methods": ""}
-    data.warm.attrs = dict(empty)
+    empty = {"description": "", "units": "", "cell_methods": ""}
+    data.warm.attrs = {**empty, "flag_meanings": ""}
     data.attrs = {"title": "", "history": ""}
     data.to_netcdf(tmp_path / "in.nc")
     out = tmp_path / f"out.{end}"
@@ -608,6 +608,7 @@ def test_texts_may_be_empty(made, tmp_path, end):
         assert file.attrs["history"] == "rondel regrid"
         for side in (file, found):
             assert {name: side.warm.attrs[name] for name in empty} == empty
+            assert "flag_meanings" not in side.warm.attrs
             assert side.warm.max() > data.warm.max() - 5
         # An empty list of meanings is none.
         np.testing.assert_allclose(file.warm, found.warm, rtol=1e-13)

@@ -552,6 +552,53 @@ TEST(conventions, attributes_of_a_copy_name_what_is_there) {
   EXPECT_FALSE(is_attribute_of_names("grid_mapping"));
 }
 
+TEST(conventions, attributes_of_places_and_of_values_are_told_apart) {
+  for (const char* const name :
+       {"featureType", "geospatial_lat_min", "geospatial_lon_max", "geospatial_bounds",
+        "geospatial_lat_resolution", "nominal_resolution", "grid_label", "stagger", "MAP_PROJ",
+        "DX", "WEST-EAST_GRID_DIMENSION", "SOUTH-NORTH_PATCH_END_STAG", "grid_mapping"}) {
+    EXPECT_TRUE(is_attribute_of_places(name)) << name;
+    EXPECT_FALSE(is_attribute_of_values(name)) << name;
+  }
+  for (const char* const name : {"dtype", "minimum", "maximum", "data_min", "valid_count"}) {
+    EXPECT_TRUE(is_attribute_of_values(name)) << name;
+    EXPECT_FALSE(is_attribute_of_places(name)) << name;
+  }
+  for (const char* const name : {"geospatial_vertical_min", "BOTTOM-TOP_GRID_DIMENSION", "units",
+                                 "valid", "flag_values", "description"}) {
+    EXPECT_FALSE(is_attribute_of_places(name)) << name;
+    EXPECT_FALSE(is_attribute_of_values(name)) << name;
+  }
+  for (const char* const name : {"flag_values", "flag_masks", "flag_meanings"}) {
+    EXPECT_TRUE(is_attribute_of_flags(name)) << name;
+  }
+  EXPECT_FALSE(is_attribute_of_flags("flags"));
+}
+
+TEST(conventions, longitudes_count_from_the_meridian_of_their_grid_mapping) {
+  const std::vector<VariableHeader> headers = {
+      header("lat", {"lat"}),
+      header("lon", {"lon"}),
+      header("x", {"time", "lat", "lon"}, {{"grid_mapping", "crs"}}),
+      header("rlon", {"rlon"}),
+      header("y", {"rlat", "rlon"}, {{"grid_mapping", "own: rlon rlat"}}),
+      header("crs", {}),
+      header("own", {})};
+  const auto remark = [&](const std::string& coordinate, double of_crs, double of_own) {
+    const std::vector<std::pair<std::string, double>> meridians = {{"crs", of_crs},
+                                                                   {"own", of_own}};
+    return remark_on_meridian(headers, coordinate, meridians);
+  };
+  EXPECT_EQ(remark("lon", 0, 7), "");
+  EXPECT_EQ(remark("rlon", 7, 0), "");
+  EXPECT_EQ(remark("nothing", 7, 7), "");
+  EXPECT_EQ(remark("lon", 106.5, 0),
+            "the longitudes count from the meridian at 106.5 degrees east of Greenwich "
+            "(longitude_of_prime_meridian of variable \"crs\"): add 106.5 to them, and set the "
+            "attribute to 0 or remove it");
+  EXPECT_NE(remark("rlon", 0, -17), "");
+}
+
 TEST(conventions, variables_depend_on_place_by_their_dimensions) {
   const std::vector<VariableHeader> headers = {
       header("mesh", {},

@@ -15,7 +15,9 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rondel/cell_set.h"
@@ -138,6 +140,57 @@ TEST(regrid_files, flags_get_the_kind_of_the_largest_part) {
       EXPECT_LE(part, parts[out.arrays[1].values[j]] + 1e-12) << j;
     }
   }
+}
+
+TEST(regrid_files, flags_stay_flags_where_values_are_those_of_sources) {
+  const std::string in = temporary_path("in.nc");
+  write_input(in, "grid:30");
+  for (const std::string_view name : names_of<FieldMethod>()) {
+    const FieldMethod method = *from_name<FieldMethod>(name);
+    if (method == FieldMethod::native) continue;  // grids along axes are no meshes
+    for (const auto filling :
+         {std::optional<Extrapolation>(), std::optional(Extrapolation::nearest),
+          std::optional(Extrapolation::idw)}) {
+      RegridFileOptions options{.names = {"kind"}, .method = method};
+      if (filling) options.extrapolation = ExtrapolationOptions{.method = *filling};
+      const FieldSet out = regridded(in, "grid:45", temporary_path("out.nc"), options);
+      const bool is_choice = method == FieldMethod::largest_share || method == FieldMethod::nearest;
+      const bool are_flags = is_choice && filling != Extrapolation::idw;
+      EXPECT_EQ(out.arrays[0].numbers.size(), are_flags ? 1U : 0U) << name_of(method);
+      EXPECT_EQ(out.arrays[0].attributes.size(), are_flags ? 1U : 0U) << name_of(method);
+    }
+  }
+}
+
+TEST(regrid_files, a_command_says_what_changes_values) {
+  EXPECT_EQ(regrid_command("in.nc", "grid:1"), "rondel regrid in.nc grid:1");
+  RegridFileOptions options{.names = {"t", "tas[3]"}, .method = FieldMethod::conservative_2nd};
+  options.source = FileName{"a b.nc", {}};
+  options.norm = RemapNorm::destarea;
+  options.is_limited = true;
+  options.max_missing = 0.25;
+  options.overlap = CellOverlap::first;
+  options.vectors = {{"u", "v"}};
+  options.extrapolation =
+      ExtrapolationOptions{.method = Extrapolation::idw, .max_distance_km = 50.5, .neighbors = 3};
+  options.cells.sides = GridSides::great_circles;
+  options.cells.invalid = InvalidPolygons::repair;
+  options.cells.corners = MissingCorners::made;
+  EXPECT_EQ(regrid_command("it's.nc", "C4", options),
+            "rondel regrid 'it'\\''s.nc' C4 --value t --value 'tas[3]' --source 'a b.nc' "
+            "--method conservative-2nd --norm destarea --max-missing 0.25 --overlap first "
+            "--limiter bounds --vector u,v --extrapolate idw --extrapolate-distance 50.5 "
+            "--extrapolate-sources 3 --sides great-circles --invalid repair --corners made");
+  RegridFileOptions of_zones;
+  of_zones.statistics = zonal_statistics_of("mean,quantile:0.10");
+  of_zones.statistic_weights = ZonalWeights::fraction;
+  of_zones.cells.edges = PolygonEdges::geodesic;
+  of_zones.memory = 1;
+  of_zones.cells_per_tile = 5;
+  of_zones.resume = true;
+  EXPECT_EQ(regrid_command("in.nc", "p.geojson", of_zones),
+            "rondel regrid in.nc p.geojson --edges geodesic --statistics mean,quantile:0.1 "
+            "--weigh-by fraction");
 }
 
 TEST(regrid_files, methods_between_places_are_those_of_the_interpolator) {

@@ -42,6 +42,22 @@ TEST(interpolation_weights, rows_are_sums_and_rows_without_entries_are_filled) {
   EXPECT_EQ(applied({8, 4, 16, 100}, {.fill = -9}), std::vector<double>({76, -9, 9}));
 }
 
+TEST(interpolation_weights, choose_values_where_each_row_has_one_entry_that_is_1) {
+  const auto choose = [](const std::vector<double>& values) {
+    return choose_values(
+        {.offsets = {0, 1, 1, 3}, .columns = {1, 0, 1}, .values = values, .num_columns = 2});
+  };
+  EXPECT_TRUE(choose({1, 0, 1}));
+  EXPECT_TRUE(choose({1, 1, 0}));
+  EXPECT_FALSE(choose({1, 1, 1}));
+  EXPECT_FALSE(choose({1, 0.5, 0.5}));
+  EXPECT_FALSE(choose({0.5, 0, 1}));
+  EXPECT_FALSE(choose_values(some));
+  EXPECT_TRUE(choose_values({}));
+  EXPECT_THROW((void)choose_values({.offsets = {0, 2}, .columns = {0}, .values = {1}}),
+               InvalidInput);
+}
+
 TEST(interpolation_weights, fields_lie_one_behind_the_other) {
   EXPECT_EQ(applied({8, 4, 16, 100, 0, 4, 8, 0}, {.fill = 0}, 2),
             std::vector<double>({76, 0, 9, 1, 0, 3}));
