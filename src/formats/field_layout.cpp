@@ -258,6 +258,18 @@ bool FieldDimensionFinder::is_auxiliary(const io::VariableInFile& variable) cons
   return coordinates_.are_named_bounds(header.name);
 }
 
+bool FieldDimensionFinder::is_plain_axis(const io::VariableInFile& variable) const {
+  const auto index = static_cast<std::size_t>(&variable - file_.variables().data());
+  const VariableHeader& header = headers_[index];
+  const bool is_axis =
+      header.is_number && header.dimensions.size() == 1 && header.dimensions[0] == header.name;
+  return is_axis && header.name != list_of_pixels_ && !parts_of_grids_[index] &&
+         !are_measures_[index] && !is_named_like_degrees(header) &&
+         pixel_list_of(header, false) != PixelList::stated &&
+         coordinate_evidence(header, CoordinateKind::lon) == 0 &&
+         coordinate_evidence(header, CoordinateKind::lat) == 0;
+}
+
 bool FieldDimensionFinder::is_at_places(const io::VariableInFile& variable) const {
   return are_at_places_[static_cast<std::size_t>(&variable - file_.variables().data())];
 }

@@ -97,6 +97,8 @@ class FieldDimensionFinder {
   // True if the variable is a coordinate, bounds, a part of a mesh or grid, or has the areas of its
   // cells: it is no field, unless it is named.
   [[nodiscard]] bool is_auxiliary(const io::VariableInFile& variable) const;
+  // True for numbers along a dimension of their name that are no places: a time, a level.
+  [[nodiscard]] bool is_plain_axis(const io::VariableInFile& variable) const;
   // True if the values of the variable depend on place, here or elsewhere (are_at_places()).
   [[nodiscard]] bool is_at_places(const io::VariableInFile& variable) const;
   // True if the variable has the areas or volumes of cells (are_measures_of_cells()).

@@ -188,6 +188,7 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.is_unlimited) fields_.unlimited.push_back(written_name(dimension.name));
   }
+  if (extras_.has_others) tell_of_attributes(file.attributes(), "of the file");
   for (const std::string& given : wanted.names) {
     const std::string name = io::full_name(file.variables(), given);
     const io::VariableInFile* const variable = file.find(name);
@@ -302,12 +303,7 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
   for (const std::size_t d : layout.points) num_points *= variable.shape[d];
   if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
   fields_.arrays.push_back(array_of(file_, variable, layout.leading, true));
-  for (const io::NetcdfAttribute& attribute : variable.attributes) {
-    if (are_doubles(attribute)) continue;
-    fields_.remarks.push_back("attribute " + io::in_quotes(attribute.name) + " of variable " +
-                              io::in_quotes(variable.name) +
-                              " has integers that are no doubles; it is left out");
-  }
+  tell_of_attributes(variable.attributes, "of variable " + io::in_quotes(variable.name));
   // All arrays are at the places of the first one that has some.
   if (fields_.shape.empty() && fields_.points.empty() &&
       layout.places.first_not(is_place) == layout.places.size()) {
@@ -336,11 +332,13 @@ void FieldSlices::add_with_layout(const io::VariableInFile& variable, FieldDimen
 // Adds all variables that are fields, and reports the others unless they are coordinates.
 void FieldSlices::add_all() {
   std::vector<ApartVariable> apart;
+  std::vector<const io::VariableInFile*> axes;
   NameList elsewhere;
   NameList measures;
   std::vector<std::string> refused;
   for (const io::VariableInFile& variable : file_.variables()) {
     if (layouts_.is_lost(variable)) apart.push_back({&variable, true});
+    if (layouts_.is_plain_axis(variable)) axes.push_back(&variable);
     if (layouts_.is_measure_of_cells(variable)) measures.add(variable.name);
     if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
     try {
@@ -371,6 +369,11 @@ void FieldSlices::add_all() {
   if (!measures.text().empty()) {
     fields_.remarks.push_back("left out, as they are areas or volumes of cells: " +
                               measures.text());
+  }
+  for (const io::VariableInFile* const axis : axes) {
+    const bool is_known =
+        std::ranges::count(fields_.axes, written_name(axis->name), &FieldArray::name) != 0;
+    if (!is_known && !depends_on_place(*axis)) apart.push_back({axis, true});
   }
   keep_others(apart);
   if (elsewhere.text().empty()) return;
@@ -453,14 +456,28 @@ bool FieldSlices::keep_other(const io::VariableInFile& variable) {
   if (variable.type == io::NetcdfType::text) return keep_text(variable);
   std::vector<std::size_t> all(variable.shape.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
+  if (layouts_.is_plain_axis(variable)) {
+    add_axes(variable, all, fields_.axes);
+    return true;
+  }
   FieldArray array = array_of(file_, variable, all);
   bool is_rounded = false;
   array.values = file_.rounded_numbers(variable, is_rounded);
   if (is_rounded) tell_of_rounding(variable);
   ValueRules(variable).apply(array.values);
   fields_.others.push_back(std::move(array));
+  tell_of_attributes(variable.attributes, "of variable " + io::in_quotes(variable.name));
   add_axes(variable, all, fields_.axes);
   return true;
+}
+
+void FieldSlices::tell_of_attributes(std::span<const io::NetcdfAttribute> attributes,
+                                     const std::string& whose) {
+  for (const io::NetcdfAttribute& attribute : attributes) {
+    if (are_doubles(attribute)) continue;
+    fields_.remarks.push_back("attribute " + io::in_quotes(attribute.name) + " " + whose +
+                              " has integers that are no doubles; it is left out");
+  }
 }
 
 void FieldSlices::tell_of_rounding(const io::VariableInFile& variable) {
@@ -490,6 +507,7 @@ bool FieldSlices::keep_text(const io::VariableInFile& variable) {
     array.characters = file_.characters(variable);
   }
   fields_.others.push_back(std::move(array));
+  tell_of_attributes(variable.attributes, "of variable " + io::in_quotes(variable.name));
   add_axes(variable, all, fields_.axes);
   return true;
 }
@@ -544,6 +562,16 @@ void FieldSlices::name_variables() {
       dimensions.insert(array.dimensions.begin(), array.dimensions.end());
     }
   }
+  const auto kept_in = [](const std::set<std::string>& known) {
+    return [&known](std::string name) {
+      name = written_name(std::move(name));
+      return known.contains(name) ? name : std::string();
+    };
+  };
+  // xarray lists here the coordinates of no variable.
+  const std::string listed = with_names(
+      "coordinates", io::netcdf_text(file_.attributes(), "coordinates"), kept_in(others));
+  if (!listed.empty()) fields_.attributes.emplace_back("coordinates", listed);
   for (std::vector<FieldArray>* const arrays : all) {
     for (FieldArray& array : *arrays) {
       const auto found = in_file.find(array.name);
@@ -558,10 +586,7 @@ void FieldSlices::name_variables() {
         const std::set<std::string>& known = attribute.name == "compress"      ? dimensions
                                              : attribute.name == "coordinates" ? others
                                                                                : names;
-        const std::string text = with_names(attribute.name, attribute.text, [&](std::string name) {
-          name = written_name(std::move(name));
-          return known.contains(name) ? name : std::string();
-        });
+        const std::string text = with_names(attribute.name, attribute.text, kept_in(known));
         if (!text.empty()) array.attributes.emplace_back(attribute.name, text);
       }
     }
@@ -583,6 +608,7 @@ void FieldSlices::add_axes(const io::VariableInFile& variable,
     const ValueRules rules(*axis);
     if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
     axes.push_back(array_of(file_, *axis, {0}));
+    tell_of_attributes(axis->attributes, "of variable " + io::in_quotes(axis->name));
     bool is_rounded = false;
     axes.back().values = file_.rounded_numbers(*axis, is_rounded);
     if (is_rounded) tell_of_rounding(*axis);

@@ -82,6 +82,10 @@ class FieldSlices {
   [[nodiscard]] std::string gathered_dimension(const io::VariableInFile& variable) const;
   // Adds a variable that has no points to `others`, and the axes along its dimensions; returns false if it is left out.
   bool keep_other(const io::VariableInFile& variable);
+  // Adds a remark on each attribute that is left out as its integers are no doubles; `whose` is what has
+  // them.
+  void tell_of_attributes(std::span<const io::NetcdfAttribute> attributes,
+                          const std::string& whose);
   // Adds a remark on integers of 64 bits.
   void tell_of_rounding(const io::VariableInFile& variable);
   // Does the same as keep_other() for a text.

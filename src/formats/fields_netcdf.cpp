@@ -31,6 +31,9 @@ NetcdfType type_of(const FieldArray& array) {
   return array.is_single ? NetcdfType::float32 : NetcdfType::float64;
 }
 
+// The attribute of variables, and of files, that lists coordinates.
+constexpr std::string_view listed_coordinates = "coordinates";
+
 // Adds attributes that are numbers, but for those whose name another one has.
 void add_numbers(const std::vector<NumericAttribute>& numbers,
                  std::vector<io::NetcdfAttribute>& attributes) {
@@ -239,7 +242,7 @@ class NetcdfSink : public FieldSink {
     unlimited_ = fields.unlimited;
     out_.add_attribute("Conventions", "CF-1.8");
     for (const auto& [name, text] : fields.attributes) {
-      if (name != "Conventions") out_.add_attribute(name, text);
+      if (name != "Conventions" && name != listed_coordinates) out_.add_attribute(name, text);
     }
     for (const NumericAttribute& attribute : fields.numbers) {
       if (io::find_attribute(out_.attributes(), attribute.name) != nullptr) continue;
@@ -266,6 +269,11 @@ class NetcdfSink : public FieldSink {
     const std::vector<std::string> names = take_names(fields);
     for (std::size_t a = 0; a < leading.size(); ++a) {
       own_names_.emplace(fields.arrays[a].name, names[a]);
+    }
+    for (const auto& [name, text] : fields.attributes) {
+      const std::string listed =
+          name == listed_coordinates ? with_names(name, text, names_here()) : std::string();
+      if (!listed.empty()) out_.add_attribute(name, listed);
     }
     for (const FieldArray& axis : fields.axes) {
       const LeadingDimension& along = dimension(axis.dimensions[0], axis.shape[0]);
@@ -315,14 +323,18 @@ class NetcdfSink : public FieldSink {
     }
   }
 
+  // Returns what gives the names here of variables of the set, which are empty if there are none.
+  [[nodiscard]] std::function<std::string(const std::string&)> names_here() const {
+    return [this](const std::string& name) {
+      const auto known = own_names_.find(name);
+      return known == own_names_.end() ? std::string() : known->second;
+    };
+  }
+
   // Returns the attributes of an array, in which variables and dimensions have the names that they
   // get here. Those that name others are left out. Names in attributes are those of variables of the
   // set, so statistics of fields come without the names of fields.
   std::vector<io::NetcdfAttribute> with_own_names(const FieldArray& array) {
-    const auto name_here = [&](const std::string& name) {
-      const auto known = own_names_.find(name);
-      return known == own_names_.end() ? std::string() : known->second;
-    };
     const auto dimension_here = [&](const std::string& name) {
       const auto known = known_.lower_bound({name, 0});
       const bool is_there = known != known_.end() && known->first.first == name;
@@ -333,7 +345,7 @@ class NetcdfSink : public FieldSink {
       if (is_attribute_of_names(attribute.name)) {
         attribute.text = attribute.name == "compress"
                              ? with_names(attribute.name, attribute.text, dimension_here)
-                             : with_names(attribute.name, attribute.text, name_here);
+                             : with_names(attribute.name, attribute.text, names_here());
         if (attribute.text.empty()) continue;
       }
       attributes.push_back(std::move(attribute));

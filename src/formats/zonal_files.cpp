@@ -138,16 +138,16 @@ void leave_out_names_of(std::span<const FieldArray> fields, FieldSet& written) {
   const auto name_of_kept = [&](const std::string& name) {
     return std::ranges::count(fields, name, &FieldArray::name) == 0 ? name : std::string();
   };
+  const auto rename = [&](auto& attribute) {
+    auto& [name, text] = attribute;
+    // The attribute `compress` names dimensions.
+    if (!is_attribute_of_names(name) || name == "compress") return false;
+    text = with_names(name, text, name_of_kept);
+    return text.empty();
+  };
+  std::erase_if(written.attributes, rename);
   for (std::vector<FieldArray>* const arrays : {&written.arrays, &written.axes, &written.others}) {
-    for (FieldArray& array : *arrays) {
-      std::erase_if(array.attributes, [&](auto& attribute) {
-        auto& [name, text] = attribute;
-        // The attribute `compress` names dimensions.
-        if (!is_attribute_of_names(name) || name == "compress") return false;
-        text = with_names(name, text, name_of_kept);
-        return text.empty();
-      });
-    }
+    for (FieldArray& array : *arrays) std::erase_if(array.attributes, rename);
   }
 }
 

@@ -170,6 +170,56 @@ class Attributes(unittest.TestCase):
                 self.assertEqual(len(said), status, command)
                 self.assertTrue(all(line.startswith("in.nc: ") and line.endswith(why) for line in said), said)
 
+    def test_axes_that_no_field_has_are_carried(self):
+        for kind in ("NETCDF3_CLASSIC", "NETCDF4"):
+            with self.new("in.nc", kind) as file:
+                for name, size in (("lev", 3), ("time", None)):
+                    file.createDimension(name, size)
+                add(file, "lev", ("lev",), [1.0, 5, 9], units="hPa", positive="down")
+                add(file, "time", ("time",), [0.0, 6], units="hours since 2000-01-01")
+            self.assertEqual(self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc"), [])
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                np.testing.assert_array_equal(out["lev"][:], [1, 5, 9])
+                self.assertEqual(out["lev"].positive, "down")
+                np.testing.assert_array_equal(out["time"][:], [0, 6])
+                self.assertTrue(out.dimensions["time"].isunlimited())
+            # A table, and a variable that is named, have none of them.
+            self.assertEqual(self.run_tool("regrid", "in.nc", "grid:30", "--value", "kind", "-o", "out.nc"), [])
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                self.assertEqual({*out.variables}, {"lat", "lon", "lat_bnds", "lon_bnds", "kind"} & {*out.variables})
+            said = self.run_tool("interpolate", "in.nc", "--to", "grid:30", "-o", "out.nc")
+            self.assertEqual(said, ["in.nc: left out, as they have no values at the points: lev, time"])
+
+    def test_integers_that_are_no_doubles_are_told(self):
+        large = np.int64(2**60 + 1)
+        with self.new("in.nc") as file:
+            file.setncatts({"run_id": large, "number": np.int64(7)})
+            file.createDimension("lev", 2)
+            add(file, "lev", ("lev",), [1.0, 5], own=large)
+            add(file, "of_lev", ("lev",), [1.0, 5], its=large)
+            file["kind"].other = large
+        end = "has integers that are no doubles; it is left out"
+        said = self.run_tool("regrid", "in.nc", "grid:30", "-o", "out.nc4")
+        self.assertEqual(sorted(said), sorted(
+            [f'in.nc: attribute "run_id" of the file {end}']
+            + [f'in.nc: attribute "{a}" of variable "{v}" {end}' for a, v in (("own", "lev"), ("its", "of_lev"), ("other", "kind"))]
+        ))
+        with netCDF4.Dataset(self.folder / "out.nc4") as out:
+            self.assertEqual(out.number, 7)
+            self.assertNotIn("run_id", out.ncattrs())
+
+    def test_coordinates_that_the_file_lists_stay_coordinates(self):
+        with self.new("in.nc") as file:
+            file.createDimension("time", 2)
+            add(file, "season", ("time",), [1.0, 2])
+            add(file, "lat_", (), 7.0)
+            file.coordinates = "season lat_ lost"
+        for options in ((), ("--statistics", "mean")):
+            self.run_tool("regrid", "in.nc", "grid:30", *options, "-o", "out.nc")
+            with netCDF4.Dataset(self.folder / "out.nc") as out:
+                self.assertEqual(out.coordinates.split(), ["season", "lat_"])
+                self.assertLessEqual({*out.coordinates.split()}, {*out.variables})
+
 
 if __name__ == "__main__":
     unittest.main()
