@@ -127,6 +127,7 @@ WeightSide side_with_cells(const Job& job, const InterpolateOptions& options,
   WeightSide side = targets.side;
   if (is_netcdf_file(options.common.target())) {
     describe_cells(options.target_file(), fields, side, job.execution());
+    tell(options.target, fields.remarks);
   }
   return side;
 }

@@ -208,7 +208,8 @@ class FieldFile {
 /// name of a grid (NamedGrid::mapping()), which may be in a file, or by the bounds of the cells
 /// that the file has, if these are around its points.
 /// \param target  the name of a grid, or the file that the points are from; nothing is said of others
-/// \param fields  gets the name
+/// \param fields  gets the name, and a remark on what the file says of its points beside longitudes
+///                and latitudes, such as names of stations, which no field gets
 /// \param points  has the points, and gets the bounds: `corners`, or `axes` and `lines`
 /// \throws FileError for a file that names a grid which is none
 RONDEL_API void describe_cells(const FileName& target, FieldSet& fields, WeightSide& points,

@@ -6,6 +6,7 @@
 // dimensions and single axes do. orient() compares these with the wanted places, and reverses the
 // dimensions of points if rows and columns are swapped.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
@@ -31,6 +32,18 @@ double coordinate_of(const LonLat& place, CoordinateKind kind) {
 bool is_near_deg(double a, double b, CoordinateKind kind, double max_apart_deg) {
   const double away = kind == CoordinateKind::lon ? std::remainder(a - b, 360) : a - b;
   return !(std::abs(away) > max_apart_deg);
+}
+
+// True for names that models give to the dimensions of grids, whose columns follow each other eastward and
+// rows northward: ROMS (xi_rho), WRF (west_east), rotated poles (rlon).
+bool is_name_of_rows_or_columns(std::string_view name, CoordinateKind kind) {
+  constexpr std::array<std::string_view, 4> columns = {"x", "nx", "xc", "rlon"};
+  constexpr std::array<std::string_view, 4> rows = {"y", "ny", "yc", "rlat"};
+  const bool is_lon = kind == CoordinateKind::lon;
+  const std::string lower = lower_case(name);
+  return std::ranges::count(is_lon ? columns : rows, lower) > 0 ||
+         lower.starts_with(is_lon ? "xi_" : "eta_") ||
+         lower.starts_with(is_lon ? "west_east" : "south_north");
 }
 
 // Returns longitudes for latitudes and latitudes for longitudes.
@@ -80,8 +93,7 @@ FieldDimensionFinder::NamedDirection FieldDimensionFinder::direction_of(
   for (const CoordinateKind kind : {CoordinateKind::lon, CoordinateKind::lat}) {
     const std::size_t slash = name.rfind('/');
     const std::string own = slash == std::string::npos ? name : name.substr(slash + 1);
-    const std::string_view of_grid = kind == CoordinateKind::lon ? "x" : "y";
-    if (own == of_grid || is_known_name(own, kind)) return {kind, nullptr};
+    if (is_name_of_rows_or_columns(own, kind) || is_known_name(own, kind)) return {kind, nullptr};
   }
   return {};
 }

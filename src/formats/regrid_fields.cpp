@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "formats/field_cells.h"
 #include "formats/grid_of_file.h"
 #include "formats/regrid_plan.h"
 #include "formats/weight_formats.h"
@@ -15,6 +18,7 @@
 #include "io/netcdf_reader.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
+#include "rondel/named_grids.h"
 
 namespace rondel::formats {
 namespace {
@@ -41,7 +45,36 @@ void require_places_of(const FileName& in, const RegridSide& side) {
   });
 }
 
+// True if a file of netCDF has numbers called "mask", which say nothing of its cells here.
+bool has_mask_variable(const FileName& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file.path, error) || !is_netcdf_file(file)) return false;
+  io::FileBytes bytes(file, true);
+  return io::in_file(bytes.name(), [&] {
+    const io::NetcdfReader reader(bytes);
+    const io::VariableInFile* const mask = reader.find("mask");
+    return mask != nullptr && mask->type != io::NetcdfType::text && !mask->shape.empty();
+  });
+}
+
 }  // namespace
+
+void require_file_of_fields(const FileName& in, bool has_source) {
+  const FileName file = file_and_variable(in).first;
+  std::error_code error;
+  if (file.bytes != nullptr || !std::filesystem::exists(file.path, error)) return;
+  if (is_netcdf_file(file)) return;
+  const std::string format = format_of(file);
+  if (format == "csv" || format == "tsv" || format == "npy") {
+    if (has_source) return;
+    throw FileError(file.path +
+                    ": a table or array does not say which grid its values are on: --source names "
+                    "it; rondel interpolate carries values at points");
+  }
+  throw FileError(file.path +
+                  ": it is no netCDF, from which fields are read; GRIB has to be converted to it, "
+                  "and rondel.regrid in Python takes Zarr that xarray opens");
+}
 
 bool has_flags(const FieldArray& array) {
   const auto is_text_of_flags = [](const auto& attribute) {
@@ -110,6 +143,14 @@ std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& 
     add_remarks(file_and_variable({side->name(), {}}).first.path, side->remarks(), all);
   }
   add_remarks(file, fields.remarks, all);
+  if (const std::string remark = remark_on_places({target.name(), {}}); !remark.empty()) {
+    add_remarks(file_and_variable({target.name(), {}}).first.path, {remark}, all);
+  }
+  for (const RegridSide* const side : {&source, &target}) {
+    const FileName own = file_and_variable({side->name(), {}}).first;
+    if (own.path == file || NamedGrid::is_name(side->name()) || !has_mask_variable(own)) continue;
+    add_remarks(own.path, {"the variable \"mask\" masks nothing"}, all);
+  }
   if (std::ranges::count(fields.arrays, "mask", &FieldArray::name) > 0) {
     add_remarks(file, {"the variable \"mask\" is a field as others, and masks nothing"}, all);
   }

@@ -15,6 +15,10 @@
 
 namespace rondel::formats {
 
+// Throws FileError for an input that is there and holds no fields: other formats than netCDF, and
+// tables and arrays unless the source says where their values are.
+void require_file_of_fields(const FileName& in, bool has_source);
+
 // Returns the variables that are wanted: those that are named, or the one that `in` names (FILE.nc:NAME).
 // None stand for all at the places of the side.
 std::vector<std::string> wanted_variables(const FileName& in,

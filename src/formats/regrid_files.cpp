@@ -30,6 +30,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/names.h"
+#include "rondel/read_cells.h"
 #include "rondel/tiled_remap.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -69,7 +70,8 @@ std::string text_of(const std::optional<ExtrapolationOptions>& options) {
 
 // Throws InvalidInput for a number out of range, and for an option that differs from its default and
 // would change nothing.
-void require_effects(const RegridFileOptions& options, const FileName& out) {
+void require_effects(const RegridFileOptions& options, const FileName& target,
+                     const FileName& out) {
   if (!(options.max_missing >= 0 && options.max_missing <= 1)) {
     throw InvalidInput("max_missing is " + system::shortest_text(options.max_missing) +
                        ", not in [0, 1]");
@@ -101,6 +103,10 @@ void require_effects(const RegridFileOptions& options, const FileName& out) {
           "norm has no effect with the method largest_share");
   require(options.method == FieldMethod::conservative_2nd || !options.is_limited,
           "the limiter has no effect without the method conservative_2nd");
+  const bool has_polygons =
+      can_read_polygons(target) || (options.source && can_read_polygons(*options.source));
+  require(has_polygons || options.cells.edges == PolygonEdges::lonlat,
+          "edges have no effect without polygons");
   const bool has_statistics = !options.statistics.empty();
   require(options.vectors.empty() || options.method != FieldMethod::largest_share,
           "vectors have no largest share");
@@ -235,12 +241,6 @@ class RegridJob {
     return formats::has_flags(array) ? FieldMethod::largest_share : FieldMethod::conservative;
   }
 
-  // Returns what the cost of cells depends on.
-  [[nodiscard]] static formats::RegridCells facts_of(const RegridSide& side) {
-    return {.cells = side.num_places(),
-            .have_parallels = side.has_parallels(),
-            .have_axes = side.axes() != nullptr,
-            .are_stored = side.num_stored() > 0};
   // Returns the arrays of the output without values. Flags stay flags where each target has the value
   // of one source.
   [[nodiscard]] std::vector<FieldArray> arrays_at_targets() const {
@@ -255,6 +255,12 @@ class RegridJob {
     return arrays;
   }
 
+  // Returns what the cost of cells depends on.
+  [[nodiscard]] static formats::RegridCells facts_of(const RegridSide& side) {
+    return {.cells = side.num_places(),
+            .have_parallels = side.has_parallels(),
+            .have_axes = side.axes() != nullptr,
+            .are_stored = side.num_stored() > 0};
   }
 
   // True if a tile needs consecutive sources. Extrapolation needs all of them.
@@ -603,7 +609,8 @@ RegridFileReport regrid_by_ranks(const FileName& in, const FileName& target, con
                                  const RegridFileOptions& options, const RegridRanks& ranks,
                                  const Execution& execution) {
   const system::Call call(execution);
-  require_effects(options, out);
+  require_effects(options, target, out);
+  formats::require_file_of_fields(in, options.source.has_value());
   if (!options.statistics.empty()) {
     if (options.resume || ranks.size > 1) {
       throw InvalidInput("statistics are computed by one process, in one run that is not resumed");

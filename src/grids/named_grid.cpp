@@ -295,7 +295,13 @@ std::string lack_of_level(const GridMapping& attributes) {
 std::string lack_of_order(const GridMapping& attributes) {
   const std::string scheme = text_of(attributes, order_names[0]);
   const std::string order = text_of(attributes, order_names[1]);
-  if (scheme.empty() || order.empty()) return "indexing_scheme or healpix_order (nested or ring)";
+  if (scheme.empty() && order.empty()) return "indexing_scheme or healpix_order (nested or ring)";
+  if (scheme.empty() || order.empty()) {
+    const bool is_scheme = order.empty();
+    return "order that is read, nested or ring: its " +
+           std::string(order_names[is_scheme ? 0 : 1]) + " is " +
+           io::in_quotes(is_scheme ? scheme : order);
+  }
   return "order that indexing_scheme = " + scheme + " and healpix_order = " + order + " agree on";
 }
 

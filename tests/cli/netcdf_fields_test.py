@@ -104,7 +104,8 @@ class Fields(unittest.TestCase):
         self.run_tool("apply", "w.nc", "right.nc", "-o", "right_out.nc")
         right = self.read("right_out.nc", "t")
         for names, axes, turned in itertools.product(
-            (("lat", "lon"), ("latitude", "Longitude"), ("y", "x"), ("j", "i")),
+            (("lat", "lon"), ("latitude", "Longitude"), ("y", "x"), ("j", "i"), ("ny", "nx"), ("rlat", "rlon"), ("eta_rho", "xi_rho"),
+             ("south_north", "west_east")),
             ((), ("lat",), ("lon",)),
             (False, True),
         ):

@@ -220,6 +220,25 @@ class Attributes(unittest.TestCase):
                 self.assertEqual(out.coordinates.split(), ["season", "lat_"])
                 self.assertLessEqual({*out.coordinates.split()}, {*out.variables})
 
+    def test_what_tells_of_targets_alone_is_told(self):
+        self.new("in.nc").close()
+        with netCDF4.Dataset(self.folder / "track.nc", "w") as file:
+            for name, size in (("time", 3), ("length", 4), ("lev", 2)):
+                file.createDimension(name, size)
+            add(file, "lon", ("time",), [1.0, 40, 170], units="degrees_east")
+            add(file, "lat", ("time",), [1.0, 40, -80], units="degrees_north")
+            add(file, "time", ("time",), [0.0, 1, 2], units="hours since 2000-01-01")
+            add(file, "ship", ("time", "length"), np.full((3, 4), b"a"), "S1")
+            add(file, "deep", ("time",), 5.0)
+            add(file, "heat", ("time",), 5.0, coordinates="lon lat deep")
+            add(file, "lev", ("lev",), [1.0, 2])
+        why = ["track.nc: left out, as they describe the places of the target: time, ship, deep"]
+        self.assertEqual(self.run_tool("regrid", "in.nc", "track.nc", "--method", "nearest", "-o", "out.nc"), why)
+        self.assertEqual(self.run_tool("interpolate", "in.nc", "--to", "track.nc", "-o", "out.nc"), why)
+        # Axes and named grids have nothing of the kind.
+        for target in ("in.nc", "healpix:1"):
+            self.assertEqual(self.run_tool("regrid", "in.nc", target, "--method", "nearest", "-o", "out.nc"), [])
+
 
 if __name__ == "__main__":
     unittest.main()

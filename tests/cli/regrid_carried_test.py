@@ -432,6 +432,11 @@ class Carried(unittest.TestCase):
         # A variable of this name is a field, and masks nothing.
         said = self.run_tool("regrid", "in.nc", "closed.geojson", "-o", "means.csv")
         self.assertEqual(said, ['in.nc: the variable "mask" is a field as others, and masks nothing'])
+        with new(self.folder / "to.nc", times=1) as file:
+            add(file, "mask", ("lat", "lon"), 0, "i4")
+            add(file, "crs", (), 0, "i4")
+        said = self.run_tool("regrid", "in.nc", "to.nc", "--value", "t", "-o", "to_out.nc")
+        self.assertEqual(said, ['to.nc: the variable "mask" masks nothing'])
         rows = (self.folder / "means.csv").read_text().splitlines()
         self.assertEqual(rows[0], "lon,lat,n,t,mask")
         np.testing.assert_allclose([float(cell) for cell in rows[1].split(",")[2:]], [1, 1, 0], rtol=1e-15)

@@ -134,3 +134,9 @@ def test_corners_that_are_made_are_told_by_the_data_and_the_file(tmp_path):
         other = rondel.regrid(dataset(), data, "conservative", corners="made")
     assert "source_corners" not in other.attrs
     assert other.attrs["target_corners"] == own.attrs["source_corners"]
+
+
+def test_edges_of_polygons_need_polygons(tmp_path):
+    dataset().to_netcdf(tmp_path / "in.nc", engine="scipy")
+    with pytest.raises(rondel.InvalidInput, match="edges have no effect without polygons"):
+        rondel.regrid_file(tmp_path / "in.nc", "grid:30", tmp_path / "out.nc", edges="geodesic")

@@ -201,6 +201,18 @@ def test_pictures_of_some_pixels_cover_no_more_than_these(places, with_numbers):
             "'crs' is the grid mapping of HEALPix, but has no indexing_scheme",
         ),
         (
+            pixels(
+                NORTH,
+                mapping={
+                    "grid_mapping_name": "healpix",
+                    "refinement_level": 3,
+                    "indexing_scheme": "nested_unique",
+                },
+            ),
+            "'crs' is the grid mapping of HEALPix, but has no order that is read, nested or ring: "
+            'its indexing_scheme is "nested_unique"',
+        ),
+        (
             pixels(np.arange(3), attrs={"standard_name": "healpix_index"}).assign_coords(
                 cell=("cell", [1, 2, 768], {"standard_name": "healpix_index"})
             ),

@@ -303,6 +303,26 @@ TEST(regrid_files, refuse_what_does_not_fit) {
             "healpx:4 is neither a file nor a grid: grids are grid:D");
   const std::string table = temporary_path("points.csv");
   std::ofstream(table) << "lon,lat\n0,0\n";
+  const auto why_input = [&](const std::string& input, const RegridFileOptions& options = {}) {
+    return thrown_message<FileError>([&] {
+      return regrid_file({input, {}}, {"grid:60", {}}, {out, {}}, options);
+    });
+  };
+  EXPECT_EQ(why_input(table),
+            table +
+                ": a table or array does not say which grid its values are on: --source names "
+                "it; rondel interpolate carries values at points");
+  EXPECT_EQ(why_input(table, {.source = FileName{"grid:60", {}}}),
+            table + ": no column of the table is named (--value)");
+  const std::string grib = temporary_path("in.grib");
+  std::ofstream(grib) << "GRIB";
+  for (const std::optional<FileName>& source :
+       {std::optional<FileName>(), std::optional(FileName{"grid:60", {}})}) {
+    EXPECT_EQ(why_input(grib, {.source = source}),
+              grib +
+                  ": it is no netCDF, from which fields are read; GRIB has to be converted to "
+                  "it, and rondel.regrid in Python takes Zarr that xarray opens");
+  }
   EXPECT_EQ(why(table),
             table +
                 ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
