@@ -245,6 +245,8 @@ bool is_attribute_of_values(std::string_view name) {
                                         "actual_max",
                                         "actual_range",
                                         "valid_count",
+                                        "unpacked_valid_range",
+                                        "unpacked_missing_value",
                                         "STATISTICS_MINIMUM",
                                         "STATISTICS_MAXIMUM",
                                         "STATISTICS_MEAN",

@@ -46,7 +46,7 @@ def _headers(data: Any) -> list[tuple[Any, ...]]:
 
 
 def _require_greenwich(data: Any, headers: list[tuple[Any, ...]], lon: str) -> None:
-    """Refuses longitudes that a grid mapping counts from another meridian than that of Greenwich."""
+    """Refuses longitudes that a grid mapping counts from another meridian than Greenwich."""
     known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
     name = "longitude_of_prime_meridian"
     meridians = [

@@ -338,8 +338,9 @@ class Regridder(Described):
             DataArray has the dimensions of the source, or last dimensions of that shape. Data for
             the cells of a `CellSet` may have them along one dimension of any name.
         keep_attrs : bool, optional
-            Whether to keep attributes, but for those that say which numbers are missing; by default
-            False.
+            Whether to keep attributes, but for those that hold at the source alone: which numbers
+            are missing, the grid, the range of the values, and flags of which means are made; by
+            default False.
         skipna : bool, optional
             Whether to leave out missing values; by default False, with which a target that needs a
             missing value is missing.

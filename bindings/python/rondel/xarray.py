@@ -84,8 +84,8 @@ class RondelAccessor:
     ) -> Any:
         """Interpolates values at other places.
 
-        Attributes and other dimensions, such as time, are kept; the attributes that say which
-        numbers are missing, such as `valid_range`, are not.
+        Attributes and other dimensions, such as time, are kept; the attributes that hold at the
+        source alone, such as `valid_range`, are not, nor `flag_values` where means are made.
 
         Parameters
         ----------

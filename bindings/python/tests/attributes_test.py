@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Attributes of what is carried: those that no longer hold are left out, as files lose them, and what
-is read of the result is what was computed."""
+"""Attributes of what is carried: those that no longer hold are left out, as files lose them, and
+what is read of the result is what was computed.
+"""
 
 import numpy as np
 import pytest
@@ -93,27 +94,28 @@ def test_a_dataset_does_not_tell_of_another_grid():
 
 
 @pytest.mark.parametrize("is_array", [False, True])
-def test_longitudes_of_another_meridian_are_refused(is_array):
-    data = dataset(grid_mapping="crs")
-    text = "longitudes count from the meridian at 106.5 degrees east of Greenwich"
-    for meridian in (0.0, 106.5):
+@pytest.mark.parametrize(
+    "way",
+    [
+        lambda given: rondel.regrid(given, "grid:30"),
+        lambda given: rondel.regrid(dataset(), given),
+        lambda given: rondel.Regridder(given, POINTS, "bilinear"),
+        lambda given: given.rondel.interpolate(POINTS, "nearest"),
+    ],
+)
+def test_longitudes_of_another_meridian_are_refused(way, is_array):
+    def with_meridian(number):
         mapping = {
             "grid_mapping_name": "latitude_longitude",
-            "longitude_of_prime_meridian": meridian,
+            "longitude_of_prime_meridian": number,
         }
-        given = data.assign_coords(crs=((), 0, mapping))
-        given = given.kind if is_array else given
-        for way in (
-            lambda: rondel.regrid(given, "grid:30"),
-            lambda: rondel.regrid(dataset(), given),
-            lambda: rondel.Regridder(given, POINTS, "bilinear"),
-            lambda: given.rondel.interpolate(POINTS, "nearest"),
-        ):
-            if meridian == 0:
-                way()
-                continue
-            with pytest.raises(ValueError, match=text):
-                way()
+        given = dataset(grid_mapping="crs").assign_coords(crs=((), 0, mapping))
+        return given.kind if is_array else given
+
+    way(with_meridian(0.0))
+    text = "longitudes count from the meridian at 106.5 degrees east of Greenwich"
+    with pytest.raises(ValueError, match=text):
+        way(with_meridian(106.5))
 
 
 def test_corners_that_are_made_are_told_by_the_data_and_the_file(tmp_path):

@@ -560,7 +560,8 @@ TEST(conventions, attributes_of_places_and_of_values_are_told_apart) {
     EXPECT_TRUE(is_attribute_of_places(name)) << name;
     EXPECT_FALSE(is_attribute_of_values(name)) << name;
   }
-  for (const char* const name : {"dtype", "minimum", "maximum", "data_min", "valid_count"}) {
+  for (const char* const name :
+       {"dtype", "minimum", "maximum", "data_min", "valid_count", "unpacked_valid_range"}) {
     EXPECT_TRUE(is_attribute_of_values(name)) << name;
     EXPECT_FALSE(is_attribute_of_places(name)) << name;
   }
