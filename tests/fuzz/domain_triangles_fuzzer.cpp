@@ -252,12 +252,17 @@ class Rocks {
     land_ += area;
     if (is_land) largest_ = std::max(largest_, area);
     length_ += length_around(rock);
-    if (source.byte() % 8 == 0) {
-      Geometries point;
-      point.lines.rows.append(std::span(rock.polygons.points).first(1));
-      point.lines.end_group();
-      point.polygons.end_cell();
-      domain_.lines.push_back(std::move(point));
+    if (source.byte() % 4 == 0) {  // a point at its corner, or a line through that
+      Geometries line;
+      std::vector<Point> points(1U, rock.polygons.points.front());
+      if (source.byte() % 2 == 0) {
+        points.insert(points.begin(), chart_.at(x * half, y * half));
+        points.push_back(chart_.at(source.small() / 128.0 * half, source.small() / 128.0 * half));
+      }
+      line.lines.rows.append(points);
+      line.lines.end_group();
+      line.polygons.end_cell();
+      domain_.lines.push_back(std::move(line));
     }
     domain_.coast.push_back(std::move(rock));
   }

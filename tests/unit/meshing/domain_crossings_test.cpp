@@ -247,6 +247,26 @@ TEST(domain_crossings, lines_through_one_place_have_one_node) {
   }
 }
 
+// Rivers that cross each other beside a coast, which they cross, too, at any angle.
+TEST(domain_crossings, crossings_of_rivers_beside_a_coast_are_welded) {
+  const Geometries sea = polygon({box(-5, -5, 5, 5)});
+  const Geometries land = polygon({box(-3, -3, 3, 0)});
+  std::mt19937 random(3);
+  for (int round = 0; round < 40; ++round) {
+    SCOPED_TRACE(round);
+    std::vector<Geometries> lines;
+    for (int k = 0; k < 2; ++k) {
+      const double angle = 0.6 + 1.2 * k + 0.4 * 0x1p-32 * static_cast<double>(random());
+      lines.push_back(line({{-2 * std::cos(angle), 0.001 - 2 * std::sin(angle)},
+                            {2 * std::cos(angle), 0.001 + 2 * std::sin(angle)}}));
+    }
+    TrianglesOptions options = spaced(1);
+    options.weld = 0.05 * std::numbers::pi / 180;
+    options.tolerance = round % 2 == 0 ? 0 : 0.25 * std::numbers::pi / 180;
+    EXPECT_GT(shortest_edge(triangles({{land}, {sea}, lines}, options)), 0.3);
+  }
+}
+
 TEST(domain_crossings, coasts_that_cross_are_simplified_where_water_is_filled) {
   std::vector<Geometries> land;
   for (const Ring& ring : std::vector<Ring>{
