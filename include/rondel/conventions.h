@@ -269,6 +269,26 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
                                                  std::span<const double> lon,
                                                  std::span<const double> lat);
 
+/// The dimensions of bounds of a coordinate, and those of the coordinate itself, by their names.
+struct BoundsLayout {
+  std::span<const std::string> dimensions;  ///< of the bounds
+  std::span<const std::uint64_t> shape;     ///< the lengths of these
+  std::span<const std::string> places;      ///< of the coordinate, along which places differ
+  std::span<const std::uint64_t> lengths;   ///< the lengths of these
+  std::span<const std::string> repeated;    ///< of the coordinate, along which places repeat
+};
+
+/// Returns which dimensions of bounds count no cells and no corners, because the bounds of all
+/// cells only come again along them, as time in lat_bnds(time, lat, bnds), which joined files have.
+/// \param values  the bounds, in the order of their dimensions
+/// \throws InvalidInput if the number of values is not that of the shape, or if cells change along
+///         such a dimension; its index is that of the dimension
+RONDEL_API std::vector<bool> record_dimensions(const BoundsLayout& layout,
+                                               std::span<const double> values);
+
+/// True if variables are those of a mesh in a file of UGRID, SCRIP, ESMF, MPAS, ICON or Exodus.
+RONDEL_API bool has_mesh(std::span<const VariableHeader> variables);
+
 /// True if models give this name to the dimension of their cells (`nCells`, `ncol`, `cell` ...).
 RONDEL_API bool is_name_of_cells(std::string_view dimension);
 

@@ -230,9 +230,10 @@ formats::MeshContent formats::read_by_convention(const io::NetcdfReader& file,
   // The name of a grid of OASIS, such as torc, is that of no variable.
   const bool is_oasis = file.find(name + ".clo") != nullptr;
   if (!name.empty() && !is_oasis) (void)file.require(name);
+  const std::optional<io::NetcdfReader> once = without_times_of_mesh(file);
   for (const auto read : {&read_ugrid, &read_scrip_grid, &read_esmf_mesh, &read_mpas_cells,
                           &read_icon, &read_oasis, &read_exodus}) {
-    if (std::optional<MeshContent> mesh = read(file, name)) return std::move(*mesh);
+    if (std::optional<MeshContent> mesh = read(once ? *once : file, name)) return std::move(*mesh);
   }
   // CF comes last, since files of the other conventions may have longitudes and latitudes, too.
   if (std::optional<MeshContent> mesh = read_cf_grid(file, name, corners)) return std::move(*mesh);

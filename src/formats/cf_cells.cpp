@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/cf_bounds.h"
 #include "formats/cf_lines.h"
 #include "formats/cf_names.h"
 #include "formats/cf_reader.h"
@@ -181,22 +182,24 @@ class CfGrids {
 
 // Returns the bounds of an axis in degrees, two for each cell or one more than cells, or none if it
 // has no bounds (`bounds` is null). `other` is the other axis, whose units count if the axis has
-// none. Throws BadValue for any other number of bounds.
+// none. Throws BadValue for any other number of bounds, and for bounds that change along a further
+// dimension.
 std::vector<double> bounds_of_axis(const NetcdfReader& file, const io::VariableInFile& axis,
                                    const io::VariableInFile& other,
                                    const io::VariableInFile* bounds) {
   if (bounds == nullptr) return {};
-  const bool are_lines = bounds->num_values == axis.num_values + 1;
-  if (bounds->num_values != 2 * axis.num_values && !are_lines) {
+  const PlaceArrays along{axis.dimensions, axis.shape, {}, {}, {}};
+  auto [found, values] = read_bounds(file, *bounds, along, {&axis, &other});
+  const bool are_lines = found.num_values == axis.num_values + 1;
+  if (found.num_values != 2 * axis.num_values && !are_lines) {
     throw BadValue("variable " + io::in_quotes(bounds->name) + " has " +
-                   std::to_string(bounds->num_values) + " values instead of " +
+                   std::to_string(found.num_values) + " values instead of " +
                    std::to_string(2 * axis.num_values));
   }
-  std::vector<double> values = degrees_of(file, *bounds, UsualUnits::of_name, {&axis, &other});
   // Some files have the bounds as (2, n) in place of (n, 2), the shape of CF section 7.1.
-  if (bounds->dimensions.size() == 2 && bounds->dimensions[1] == axis.dimensions[0] &&
-      bounds->dimensions[0] != axis.dimensions[0]) {
-    values = in_order(*bounds, {bounds->dimensions[1], bounds->dimensions[0]}, std::move(values));
+  if (found.dimensions.size() == 2 && found.dimensions[1] == axis.dimensions[0] &&
+      found.dimensions[0] != axis.dimensions[0]) {
+    values = in_order(found, {found.dimensions[1], found.dimensions[0]}, std::move(values));
   }
   return values;
 }
@@ -246,21 +249,6 @@ void tell_of_outside(const io::VariableInFile& axis, const io::VariableInFile* b
       system::shortest_text(lines[first]) + " to " + system::shortest_text(lines[first + 1]));
 }
 
-// Throws BadValue unless bounds are the same wherever the places are the same, as at all times: the
-// cells of a grid that moves are not those of its first time.
-void require_repeated(const io::VariableInFile& bounds, std::span<const double> values,
-                      std::size_t size) {
-  const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
-  for (std::size_t k = size; k < values.size(); ++k) {
-    if (is_same(values[k], values[k - size])) continue;
-    throw BadValue("the bounds " + io::in_quotes(bounds.name) + " are " +
-                   system::shortest_text(values[k - size]) + " and " +
-                   system::shortest_text(values[k]) +
-                   " for one place, as along a dimension that its coordinates do not have, or in "
-                   "which they repeat: cells that change are not read");
-  }
-}
-
 // Returns the lengths of the last two dimensions.
 GridShape last_two_of(std::span<const std::uint64_t> lengths) {
   return {lengths[lengths.size() - 2], lengths[lengths.size() - 1]};
@@ -278,53 +266,37 @@ bool is_of_nodes(const io::VariableInFile& bounds, const PlaceArrays& places) {
   return (rows == ny + 1 && columns == nx + 1) || (rows == nx + 1 && columns == ny + 1);
 }
 
-// Returns one coordinate of the corners of all cells in degrees, cell by cell, and their number for
-// each cell in `corners_per_cell`. The bounds have one more dimension than the coordinate, or they
-// are the nodes of a grid: then the nodes are returned, and `corners_per_cell` is 0. Throws
-// BadValue if the bounds have neither form, or change along dimensions that places do not have.
-std::vector<double> corners_of_bounds(const NetcdfReader& file,
-                                      const io::VariableInFile& coordinate,
-                                      const io::VariableInFile& other,
-                                      const io::VariableInFile& bounds, const PlaceArrays& places,
-                                      std::size_t& corners_per_cell) {
-  std::vector<double> values = degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
+// Puts the corners of all cells in order, cell by cell, and returns their number for each cell. The
+// bounds have one more dimension than the coordinate, or they are the nodes of a grid: then these
+// stay, and 0 is returned. Throws BadValue if the bounds have neither form.
+std::size_t order_corners(BoundsArray& bounds, const PlaceArrays& places) {
+  const io::VariableInFile& variable = bounds.variable;
   const std::size_t num_cells = places.lon.size();
   const auto is_of_bounds = [&](std::size_t dimension) {
-    return std::ranges::count(bounds.dimensions, dimension) == 1;
+    return std::ranges::count(variable.dimensions, dimension) == 1;
   };
   if (std::ranges::all_of(places.dimensions, is_of_bounds)) {
-    // Repeated dimensions such as time come first (only the first of their values is used), then
-    // the dimensions of the places, and at last the corners.
-    std::vector<std::size_t> order;
-    for (const std::size_t d : places.repeated) {
-      if (is_of_bounds(d)) order.push_back(d);
+    // The dimensions of the places come first, then the corners.
+    std::vector<std::size_t> order = places.dimensions;
+    std::size_t corners_per_cell = 1;
+    for (std::size_t d = 0; d < variable.dimensions.size(); ++d) {
+      if (std::ranges::count(order, variable.dimensions[d]) != 0) continue;
+      order.push_back(variable.dimensions[d]);
+      corners_per_cell *= variable.shape[d];
     }
-    order.insert(order.end(), places.dimensions.begin(), places.dimensions.end());
-    corners_per_cell = 1;
-    for (std::size_t d = 0; d < bounds.dimensions.size(); ++d) {
-      if (std::ranges::count(order, bounds.dimensions[d]) != 0) continue;
-      order.push_back(bounds.dimensions[d]);
-      corners_per_cell *= bounds.shape[d];
-    }
-    if (std::ranges::is_permutation(order, bounds.dimensions)) {
-      values = in_order(bounds, order, std::move(values));
-      require_repeated(bounds, values, num_cells * corners_per_cell);
-      values.resize(num_cells * corners_per_cell);
-      return values;
+    if (std::ranges::is_permutation(order, variable.dimensions)) {
+      bounds.values = in_order(variable, order, std::move(bounds.values));
+      return corners_per_cell;
     }
   }
-  if (is_of_nodes(bounds, places)) {
-    corners_per_cell = 0;
-    return values;
-  }
+  if (is_of_nodes(variable, places)) return 0;
   // Bounds may have dimensions of other names; then the corners are taken for the last one.
-  if (num_cells == 0 || values.size() % num_cells != 0) {
-    throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
-                   std::to_string(bounds.num_values) + " values for " + std::to_string(num_cells) +
-                   " cells");
+  if (num_cells == 0 || bounds.values.size() % num_cells != 0) {
+    throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
+                   std::to_string(variable.num_values) + " values for " +
+                   std::to_string(num_cells) + " cells");
   }
-  corners_per_cell = values.size() / num_cells;
-  return values;
+  return bounds.values.size() / num_cells;
 }
 
 // Makes the cells of coordinates with bounds. Each cell has nodes of its own, which RingsOfNodes
@@ -335,25 +307,27 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   MeshContent mesh;
   const io::VariableInFile& lon = grids.variable(pair.lon);
   const io::VariableInFile& lat = grids.variable(pair.lat);
-  const io::VariableInFile& lon_bounds = grids.variable(pair.lon_bounds);
-  const io::VariableInFile& lat_bounds = grids.variable(pair.lat_bounds);
   const PlaceArrays places = places_of(file, lon, lat);
-  std::size_t corners_per_cell = 0;
-  std::size_t of_each_lat = 0;
-  const std::vector<double> lons =
-      corners_of_bounds(file, lon, lat, lon_bounds, places, corners_per_cell);
-  std::vector<double> lats = corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
+  BoundsArray lons = read_bounds(file, grids.variable(pair.lon_bounds), places, {&lon, &lat});
+  BoundsArray lats = read_bounds(file, grids.variable(pair.lat_bounds), places, {&lat, &lon});
+  const io::VariableInFile& lon_bounds = lons.variable;
+  const io::VariableInFile& lat_bounds = lats.variable;
+  std::size_t corners_per_cell = order_corners(lons, places);
+  const std::size_t of_each_lat = order_corners(lats, places);
   // The nodes of a grid may be stored as (ny, nx) for one coordinate and (nx, ny) for the other.
   if (of_each_lat == 0 &&
       std::ranges::is_permutation(lon_bounds.dimensions, lat_bounds.dimensions)) {
-    lats = in_order(lat_bounds, lon_bounds.dimensions, std::move(lats));
+    lats.values = in_order(lat_bounds, lon_bounds.dimensions, std::move(lats.values));
   }
-  if (corners_per_cell != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
+  const std::size_t num_nodes = lons.values.size();
+  if (corners_per_cell != of_each_lat || num_nodes != lats.values.size() || num_nodes >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
                    io::in_quotes(lat_bounds.name) + " have not as many corners");
   }
-  system::reserve_large(mesh.nodes, lons.size());
-  for (std::size_t i = 0; i < lons.size(); ++i) mesh.nodes.push_back({lons[i], lats[i]});
+  system::reserve_large(mesh.nodes, num_nodes);
+  for (std::size_t i = 0; i < num_nodes; ++i) {
+    mesh.nodes.push_back({lons.values[i], lats.values[i]});
+  }
   mesh.names = io::in_quotes(lon_bounds.name) + " and " + io::in_quotes(lat_bounds.name);
   mesh.is_single = lon_bounds.type == io::NetcdfType::float32;
   system::reserve_large(mesh.centers, places.lon.size());

@@ -190,6 +190,12 @@ io::VariableInFile at_first_place(io::VariableInFile variable) {
 
 }  // namespace
 
+io::VariableInFile without_times(const io::NetcdfReader& file, const io::VariableInFile& variable) {
+  // Without room for the values in the file, reading them is an error.
+  const bool is_time = variable.num_values <= file.max_values() && has_time_first(file, variable);
+  return is_time && is_repeated_along_first(file, variable) ? at_first_place(variable) : variable;
+}
+
 PlaceArrays places_of(const io::NetcdfReader& file, const io::VariableInFile& lon,
                       const io::VariableInFile& lat, UsualUnits usual) {
   for (const std::string kind : {"Cell", "Edge", "Vertex"}) {

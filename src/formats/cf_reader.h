@@ -50,6 +50,10 @@ std::vector<double> transposed(std::span<const std::uint64_t> shape,
 std::vector<double> in_order(const io::VariableInFile& variable,
                              const std::vector<std::size_t>& wanted, std::vector<double> values);
 
+// Returns the variable with only its first time, if the first of several dimensions is one of time
+// and the values are the same at all times; else the variable as it is.
+io::VariableInFile without_times(const io::NetcdfReader& file, const io::VariableInFile& variable);
+
 // Longitudes and latitudes on the same dimensions, in degrees; missing ones are NaN.
 struct PlaceArrays {
   // The dimensions of the longitudes along which places differ, by their numbers in the file.

@@ -192,7 +192,7 @@ std::string with_names(std::string_view attribute, const std::string& text,
   return kept;
 }
 
-bool formats::has_mesh(std::span<const VariableHeader> variables) {
+bool has_mesh(std::span<const VariableHeader> variables) {
   // These are marks of MPAS, SCRIP, ESMF, ICON and Exodus; the attribute below is UGRID's.
   constexpr std::array<std::string_view, 5> marks = {"verticesOnCell", "grid_corner_lon",
                                                      "elementConn", "vertex_of_cell", "connect1"};

@@ -164,7 +164,7 @@ NativeCells read_native_cells(const FileName& file, std::span<const LonLat> plac
     }
     const io::NetcdfReader reader(bytes);
     const std::string mesh_name = mesh_of(reader, io::full_name(reader.variables(), part.second));
-    if (!formats::has_mesh(formats::headers_of(reader))) {
+    if (!has_mesh(formats::headers_of(reader))) {
       throw io::BadValue(needs_common_nodes +
                          std::string("this file has none, and linear takes any places"));
     }

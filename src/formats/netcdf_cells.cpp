@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -192,6 +194,13 @@ class ConnectivityReader {
   std::uint64_t first_longer_ = 0;
 };
 
+// Throws BadValue if a variable of a mesh has time as its first dimension, along which it changes.
+void require_no_change(const io::VariableInFile& variable) {
+  if (!variable.changes_with_time) return;
+  throw BadValue("variable " + io::in_quotes(variable.name) +
+                 " changes with time: meshes that move are not read");
+}
+
 }  // namespace
 
 bool is_meant(const io::NetcdfReader& file, const std::string& name,
@@ -203,8 +212,29 @@ bool is_meant(const io::NetcdfReader& file, const std::string& name,
           }));
 }
 
+std::optional<io::NetcdfReader> without_times_of_mesh(const io::NetcdfReader& file) {
+  const std::vector<VariableHeader> headers = headers_of(file);
+  if (!has_mesh(headers)) return std::nullopt;
+  const std::vector<bool> are_parts = parts_of_grids(headers);
+  std::map<std::size_t, io::VariableInFile> changed;
+  for (std::size_t v = 0; v < headers.size(); ++v) {
+    const std::vector<std::string>& dimensions = headers[v].dimensions;
+    if (!are_parts[v] || !headers[v].is_number || dimensions.size() < 2) continue;
+    if (!is_name_of_time(dimensions[0]) || headers[v].shape[0] == 0) continue;
+    io::VariableInFile once = without_times(file, file.variables()[v]);
+    once.changes_with_time = once.shape[0] > 1;
+    if (!once.changes_with_time) {
+      once.dimensions.erase(once.dimensions.begin());
+      once.shape.erase(once.shape.begin());
+      ++once.num_fixed;
+    }
+    changed.emplace(v, std::move(once));
+  }
+  return changed.empty() ? std::nullopt : std::optional(file.with(std::move(changed)));
+}
 void require_values(const io::VariableInFile& variable, std::uint64_t wanted) {
   if (variable.num_values == wanted) return;
+  require_no_change(variable);
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                  std::to_string(variable.num_values) + " values instead of " +
                  std::to_string(wanted));
@@ -215,6 +245,7 @@ void require_rank(io::VariableInFile&& variable, std::size_t rank) = delete;
 
 const io::VariableInFile& require_rank(const io::VariableInFile& variable, std::size_t rank) {
   if (variable.shape.size() == rank) return variable;
+  require_no_change(variable);
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                  std::to_string(variable.shape.size()) + " dimensions instead of " +
                  std::to_string(rank));
@@ -240,6 +271,7 @@ std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordin
                                  const MeshCoordinates& related, UsualUnits usual) {
   const io::VariableInFile& lon = *wanted.lon;
   const io::VariableInFile& lat = *wanted.lat;
+  require_no_change(lon);
   require_values(lat, lon.num_values);
   auto [lons, lats] = degrees_of_both(file, wanted, related, usual);
   if (lon.dimensions != lat.dimensions &&

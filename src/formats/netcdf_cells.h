@@ -50,10 +50,6 @@ CellSet cells_by_rules(CellTable table, const CellFileOptions& options, const Ex
 MeshContent read_by_convention(const io::NetcdfReader& file, const std::string& name,
                                MissingCorners corners = MissingCorners::error);
 
-// True if variables are those of a mesh, in any convention but OASIS, whose cells a field need not
-// name.
-bool has_mesh(std::span<const VariableHeader> variables);
-
 // Each reader returns nothing if the file does not follow its convention, or if `name` is not empty
 // and that variable is not on cells of this convention. Throws BadValue for a file that follows the
 // convention and is wrong.
@@ -143,6 +139,10 @@ std::string remark_on_fields(const io::NetcdfReader& file, std::span<const std::
 void leave_out_cells_without_corners(MeshContent& mesh);
 // Returns the first number of an attribute, or `otherwise` if there is no such attribute.
 double number_or(const io::VariableInFile& variable, std::string_view name, double otherwise);
+// Returns the file with the variables of its mesh as they are at all times, if some of them have time
+// as their first dimension, as files have that were joined. Those that change keep that dimension,
+// and the functions below refuse them. Nothing if there are none.
+std::optional<io::NetcdfReader> without_times_of_mesh(const io::NetcdfReader& file);
 // Throws BadValue unless the variable has this number of values.
 void require_values(const io::VariableInFile& variable, std::uint64_t wanted);
 // Throws BadValue unless the variable has this number of dimensions; returns the variable.

@@ -114,7 +114,7 @@ bool is_on_faces(const io::VariableInFile& variable) {
 // or none is on a mesh of UGRID at all; meshes of ESMF and Exodus have values on cells alone.
 bool are_places_faces(const io::NetcdfReader& reader) {
   const std::vector<VariableHeader> headers = formats::headers_of(reader);
-  if (!formats::has_mesh(headers)) return false;
+  if (!has_mesh(headers)) return false;
   bool is_elsewhere = false;
   for (const VariableHeader& header : headers) {
     const bool is_on_mesh = !header.text("mesh").empty();

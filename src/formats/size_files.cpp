@@ -102,7 +102,7 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
     const io::NetcdfReader reader(bytes);
     NetcdfFields found;
     const std::vector<VariableHeader> headers = formats::headers_of(reader);
-    found.is_mesh = formats::has_mesh(headers);
+    found.is_mesh = has_mesh(headers);
     if (!name.empty()) {
       found.names.push_back(name);
       return found;

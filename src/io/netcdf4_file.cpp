@@ -221,6 +221,13 @@ T fill_of(const VariableInFile& variable) {
   }
 }
 
+// Returns the lengths of the array in the file, of which dimensions that are not read have 1.
+std::vector<std::uint64_t> lengths_in_file(const VariableInFile& variable) {
+  std::vector<std::uint64_t> lengths(variable.num_fixed, 1);
+  lengths.insert(lengths.end(), variable.shape.begin(), variable.shape.end());
+  return lengths;
+}
+
 // Reads a box by read(start, count, values). What goes beyond the array in the file is filled: there
 // netCDF-C takes values of other places where several dimensions are short.
 template <class T, class Read>
@@ -310,7 +317,7 @@ void Netcdf4File::take_stored_lengths(NetcdfHeader& header) const {
 
 void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<double> out) const {
-  for_each_slab(variable.shape, begin, out.size(),
+  for_each_slab(lengths_in_file(variable), begin, out.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
                   read_box(variable, {start, count}, out.subspan(offset, size));
                 });
@@ -346,7 +353,7 @@ const Hdf5Chunks* Netcdf4File::chunks(const VariableInFile& variable) const {
 
 void Netcdf4File::read(const VariableInFile& variable, std::uint64_t begin,
                        std::span<std::int64_t> out) const {
-  for_each_slab(variable.shape, begin, out.size(),
+  for_each_slab(lengths_in_file(variable), begin, out.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
                   read_box(variable, {start, count}, out.subspan(offset, size));
                 });
@@ -375,7 +382,7 @@ void Netcdf4File::read(const VariableInFile& variable, std::string& out) const {
     require_netcdf(library_, library_.read_text(variable.group, variable.number, start.data(),
                                                 count.data(), text));
   };
-  for_each_slab(variable.shape, 0, out.size(),
+  for_each_slab(lengths_in_file(variable), 0, out.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
                   read_stored(variable, start, count, std::span(out).subspan(offset, size), read);
                 });
@@ -390,7 +397,7 @@ std::vector<std::string> Netcdf4File::strings(const VariableInFile& variable) co
     error =
         library_.read_strings(variable.group, variable.number, start.data(), count.data(), strings);
   };
-  for_each_slab(variable.shape, 0, found.size(),
+  for_each_slab(lengths_in_file(variable), 0, found.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t size) {
                   if (error != 0) return;
                   read_stored(variable, start, count, std::span(found).subspan(offset, size), read);

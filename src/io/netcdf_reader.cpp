@@ -162,6 +162,12 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
   }
 }
 
+NetcdfReader NetcdfReader::with(std::map<std::size_t, VariableInFile> variables) const {
+  NetcdfReader made = *this;
+  for (auto& [number, variable] : variables) made.variables_[number] = std::move(variable);
+  return made;
+}
+
 const VariableInFile* NetcdfReader::find(std::string_view name) const {
   const auto at = numbers_.find(name);
   return at == numbers_.end() ? nullptr : &variables_[at->second];

@@ -56,6 +56,11 @@ struct VariableInFile : NetcdfVariable {
   // netCDF-4: the lengths that the array has in the file, where they are shorter than those of
   // dimensions that others have made longer; empty where they are not. What lacks is filled.
   std::vector<std::uint64_t> stored;
+  // netCDF-4: how many first dimensions of the array in the file this variable lacks, because only
+  // their index 0 is read.
+  std::size_t num_fixed = 0;
+  // True if the values are others at other indices of the first dimension, which counts times.
+  bool changes_with_time = false;
 };
 
 // A file of netCDF-4 has what the classic formats have, and more:
@@ -86,6 +91,8 @@ class NetcdfReader {
   [[nodiscard]] std::span<const VariableInFile> variables() const { return variables_; }
   // Returns the names of variables of types that the file defines itself.
   [[nodiscard]] std::span<const std::string> passed_over() const { return passed_over_; }
+  // Returns the same file with other facts of some variables, by their numbers.
+  [[nodiscard]] NetcdfReader with(std::map<std::size_t, VariableInFile> variables) const;
   // Returns null if there is no variable of this name.
   [[nodiscard]] const VariableInFile* find(std::string_view name) const;
   // Throws BadValue if there is none, or none of a type that is read.

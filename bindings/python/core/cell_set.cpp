@@ -91,6 +91,14 @@ CellSet read_cell_set(const PathIn& path, nb::handle sides, nb::handle edges, nb
   });
 }
 
+// Reads the cells of a mesh that Python has as the bytes of netCDF.
+CellSet cells_of_mesh(const nb::bytes& content, unsigned threads) {
+  std::string bytes(content.c_str(), content.size());
+  return unlocked([&] {
+    return CellSet::read(FileName::in_memory(bytes, "nc", "the data"), {}, {.threads = threads});
+  });
+}
+
 // Returns the cells of polygons, those whose group is below 0 left out.
 CellSet cells_of_geometries(const LonLatGeometries& geometries, nb::handle edges,
                             nb::handle overlap, nb::handle invalid,
@@ -234,6 +242,7 @@ void add_makers(nb::class_<CellSet>& cells) {
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("corners").none(),
                   nb::arg("threads"))
+      .def_static("of_mesh", &cells_of_mesh, nb::arg("content"), nb::arg("threads"))
       .def_static("of_geometries", &cells_of_geometries, nb::arg("geometries"),
                   nb::arg("edges").none(), nb::arg("overlap").none(), nb::arg("invalid").none(),
                   nb::arg("groups").noconvert().none(), nb::arg("threads"));

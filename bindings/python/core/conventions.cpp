@@ -105,6 +105,16 @@ void add_value_functions(nb::module_& module) {
       },
       nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
   module.def(
+      "record_dimensions",
+      [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
+         const std::vector<std::string>& places, const std::vector<std::uint64_t>& lengths,
+         const std::vector<std::string>& repeated, const NumbersIn& bounds) {
+        return record_dimensions({names, shape, places, lengths, repeated},
+                                 {bounds.data(), bounds.size()});
+      },
+      nb::arg("names"), nb::arg("shape"), nb::arg("places"), nb::arg("lengths"),
+      nb::arg("repeated"), nb::arg("bounds").noconvert());
+  module.def(
       "mark_missing",
       [](const NumbersInOut& values, const std::string& type,
          const std::vector<ValueAttributeIn>& attributes) {
@@ -187,6 +197,9 @@ void add_kinds(nb::module_& module) {
   module.def(
       "parts_of_grids",
       [](const std::vector<HeaderIn>& in) { return parts_of_grids(headers_of(in)); },
+      nb::arg("headers"));
+  module.def(
+      "has_mesh", [](const std::vector<HeaderIn>& in) { return has_mesh(headers_of(in)); },
       nb::arg("headers"));
   module.def(
       "are_measures_of_cells",

@@ -12,6 +12,7 @@ import xarray
 
 from . import _core
 from ._arrays import half_turn
+from ._errors import InvalidInput
 from ._types import FloatArray, IntArray
 
 # What to do with dimensions along which places do not change: drop all, those called time, or none.
@@ -101,6 +102,7 @@ class Coordinates:
         self._bounds = [None if k < 0 else names[k] for k in indices[2:]]
         self._units = units
         self.remarks = [text for text in remarks if self.lon_name in text or self.lat_name in text]
+        self._repeated: list[str] = []  # dimensions in which the places come again
         self.lon = self._read(self.lon_name, units[0])
         self.lat = self._read(self.lat_name, units[1])
         if not self.are_axes and self.lon.ndim >= 2:
@@ -163,6 +165,7 @@ class Coordinates:
             for dim, is_same in zip(self.lon.dims, repeated, strict=True)
             if is_same and (_core.is_name_of_time(str(dim)) or not are_times)
         }
+        self._repeated = [str(dim) for dim in first]
         self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
 
     def is_same(self, other: Coordinates) -> bool:
@@ -185,11 +188,6 @@ class Coordinates:
         return {name for name in (*self._bounds, *named.values()) if name is not None}
 
     @property
-    def own_bounds(self) -> list[str]:
-        """The variables that are bounds of these coordinates."""
-        return [name for name in self._bounds if name is not None]
-
-    @property
     def corner_names(self) -> list[str]:
         """The quoted names of the bounds."""
         return [repr(name) for name in self._bounds if name is not None]
@@ -202,22 +200,46 @@ class Coordinates:
     def bounds(self) -> list[FloatArray | None]:
         """Bounds of longitudes and of latitudes in degrees; the dimensions of places come first."""
         made: list[FloatArray | None] = []
-        places = (self.lon, self.lat)
+        found = self.bounds_once()
         first_dims: tuple[Hashable, ...] | None = None  # those of the longitudes' bounds
-        for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
+        for name, unit, own in zip(
+            self._bounds, self._units[2:], (self.lon, self.lat), strict=True
+        ):
             if name is None:
                 made.append(None)
                 continue
-            variable = self._data[name].variable
+            variable = found[name]
             if set(own.dims) <= set(variable.dims):
                 dims = [dim for dim in variable.dims if dim not in own.dims]
-                first = dict.fromkeys(dims[: len(dims) - 1], 0)
-                variable = variable.isel(first)
-                variable = variable.transpose(*own.dims, *dims[len(dims) - 1 :])
+                variable = variable.transpose(*own.dims, *dims)
             elif first_dims is not None and set(first_dims) == set(variable.dims):
                 variable = variable.transpose(*first_dims)
             first_dims = variable.dims
             made.append(np.asarray(variable.values, np.float64) * unit)
+        return made
+
+    def bounds_once(self) -> dict[str, xarray.Variable]:
+        """The variables that are bounds, without dimensions in which all bounds only come again."""
+        made = {}
+        places = (self.lon, self.lat)
+        for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
+            if name is None:
+                continue
+            variable = self._data[name].variable
+            values = np.asarray(variable.values, np.float64) * unit
+            try:
+                are_records = _core.record_dimensions(
+                    [str(dim) for dim in variable.dims],
+                    list(variable.shape),
+                    [str(dim) for dim in own.dims],
+                    list(own.shape),
+                    self._repeated,
+                    np.ascontiguousarray(values).reshape(-1),
+                )
+            except InvalidInput as error:
+                raise InvalidInput(f"the bounds {name!r} {error}", error.index) from None
+            dims = zip(variable.dims, are_records, strict=True)
+            made[name] = variable.isel({dim: 0 for dim, is_record in dims if is_record})
         return made
 
 
@@ -311,6 +333,11 @@ def mappings(data: Any) -> list[Hashable]:
     """The variables that are mappings of grids."""
     known = data.variables if isinstance(data, xarray.Dataset) else data.coords.variables
     return [name for name, item in known.items() if "grid_mapping_name" in item.attrs]
+
+
+def has_mesh(data: Any) -> bool:
+    """Whether variables describe a mesh, as in files of UGRID, SCRIP, ESMF, MPAS, ICON, Exodus."""
+    return bool(_core.has_mesh(_headers(data)))
 
 
 def parts_of_grids(data: Any) -> set[str]:

@@ -213,7 +213,7 @@ class Places:
         lon_bnds.
         """
         if self._cells is None:
-            return {name: self._data[name].variable for name in self._found.own_bounds}
+            return dict(self._found.bounds_once())
         if self._bounds_of_cells is None:
             self._bounds_of_cells = _bounds_of(self._cells, self._grid, self.dims, self.shape)
         return dict(self._bounds_of_cells)

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -129,15 +130,15 @@ TEST(conventions, coordinates_are_ranked_by_what_says_that_they_are_some) {
     return best({header("lon", {"j", "i"}, lon), header("lat", {"j", "i"}, lat),
                  header("a", {"y", "x"}, a), header("b", {"y", "x"}, b)});
   };
-  using Names = std::vector<std::string>;
-  EXPECT_EQ(best_of({}, {}, east, north), (Names{"a/b"}));
-  EXPECT_EQ(best_of({}, {}, x_axis, y_axis), (Names{"a/b"}));
-  EXPECT_EQ(best_of({}, {}, east, {}), (Names{"lon/lat"}));
-  EXPECT_EQ(best_of(east, north, longitude, latitude), (Names{"a/b"}));
-  EXPECT_EQ(best_of(longitude, latitude, east, north), (Names{"lon/lat"}));
-  EXPECT_EQ(best_of(east, {}, longitude, latitude), (Names{"a/b"}));
-  EXPECT_EQ(best_of(x_axis, y_axis, east, north), (Names{"lon/lat", "a/b"}));
-  EXPECT_EQ(best_of(north, east, {}, {}), (Names{"lat/lon"}));  // whatever their names are
+  using DimensionNames = std::vector<std::string>;
+  EXPECT_EQ(best_of({}, {}, east, north), (DimensionNames{"a/b"}));
+  EXPECT_EQ(best_of({}, {}, x_axis, y_axis), (DimensionNames{"a/b"}));
+  EXPECT_EQ(best_of({}, {}, east, {}), (DimensionNames{"lon/lat"}));
+  EXPECT_EQ(best_of(east, north, longitude, latitude), (DimensionNames{"a/b"}));
+  EXPECT_EQ(best_of(longitude, latitude, east, north), (DimensionNames{"lon/lat"}));
+  EXPECT_EQ(best_of(east, {}, longitude, latitude), (DimensionNames{"a/b"}));
+  EXPECT_EQ(best_of(x_axis, y_axis, east, north), (DimensionNames{"lon/lat", "a/b"}));
+  EXPECT_EQ(best_of(north, east, {}, {}), (DimensionNames{"lat/lon"}));  // whatever their names are
 }
 
 TEST(conventions, listed_coordinates_come_before_axes_that_pretend) {
@@ -195,6 +196,125 @@ TEST(conventions, places_repeat_along_time) {
   EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, few, lat), InvalidInput);
   EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, lon, few), InvalidInput);
   EXPECT_THROW((void)repeated({"y"}, {2, 2}, few, few), InvalidInput);
+}
+
+using DimensionNames = std::vector<std::string>;
+using DimensionLengths = std::vector<std::uint64_t>;
+
+// Returns the names of the dimensions of records, or those of the dimension along which cells
+// change with "moves along" before it.
+DimensionNames records_of(const DimensionNames& dimensions, const DimensionLengths& shape,
+                          const DimensionNames& places, const DimensionLengths& lengths,
+                          const Doubles& values, const DimensionNames& repeated = {}) {
+  DimensionNames found;
+  try {
+    const std::vector<bool> are_records =
+        record_dimensions({dimensions, shape, places, lengths, repeated}, values);
+    for (std::size_t d = 0; d < dimensions.size(); ++d) {
+      if (are_records[d]) found.push_back(dimensions[d]);
+    }
+  } catch (const InvalidInput& error) {
+    found.push_back("moves along " + dimensions[error.index()]);
+  }
+  return found;
+}
+
+// Returns the values of an array of these lengths at each of its indices.
+Doubles values_of_array(const DimensionLengths& shape,
+                        const std::function<double(const std::vector<std::size_t>&)>& value) {
+  Doubles values;
+  std::vector<std::size_t> at(shape.size(), 0);
+  for (bool is_over = false; !is_over;) {
+    values.push_back(value(at));
+    is_over = true;
+    for (std::size_t d = shape.size(); is_over && d-- > 0;) {
+      at[d] = at[d] + 1 < shape[d] ? at[d] + 1 : 0;
+      is_over = at[d] == 0;
+    }
+  }
+  return values;
+}
+
+TEST(conventions, bounds_of_axes_repeat_in_any_order_of_dimensions) {
+  const DimensionNames axis = {"lat"};
+  const auto bounds = [](std::size_t cell, std::size_t corner) {
+    return static_cast<double>(10 * cell + 10 * corner);
+  };
+  EXPECT_EQ(
+      records_of({"time", "lat", "bnds"}, {2, 3, 2}, axis, {3},
+                 values_of_array({2, 3, 2}, [&](const auto& at) { return bounds(at[1], at[2]); })),
+      DimensionNames{"time"});
+  EXPECT_EQ(
+      records_of({"lat", "bnds", "t"}, {3, 2, 2}, axis, {3},
+                 values_of_array({3, 2, 2}, [&](const auto& at) { return bounds(at[0], at[1]); })),
+      DimensionNames{"t"});
+  // DimensionNames that are none of time: bounds never repeat along the corners.
+  EXPECT_EQ(
+      records_of({"bnds", "level", "lat"}, {2, 2, 3}, axis, {3},
+                 values_of_array({2, 2, 3}, [&](const auto& at) { return bounds(at[2], at[0]); })),
+      DimensionNames{"level"});
+  EXPECT_EQ(records_of({"member", "time", "lat", "bnds"}, {2, 1, 3, 2}, axis, {3},
+                       values_of_array({2, 1, 3, 2},
+                                       [&](const auto& at) { return bounds(at[2], at[3]); })),
+            (DimensionNames{"member", "time"}));
+  // Lines between cells, one more than these, on a dimension of their own.
+  EXPECT_EQ(
+      records_of({"time", "lines"}, {2, 4}, axis, {3},
+                 values_of_array({2, 4}, [](const auto& at) { return 10.0 * double(at[1]); })),
+      DimensionNames{"time"});
+  // Two dimensions are those of cells and corners, whatever their names are.
+  EXPECT_EQ(records_of({"lat", "time"}, {3, 2}, axis, {3}, {0, 1, 1, 2, 2, 3}), DimensionNames{});
+}
+
+TEST(conventions, bounds_that_change_along_records_are_refused) {
+  const auto moving = [](std::size_t record, std::size_t cell, std::size_t corner) {
+    return static_cast<double>(10 * cell + 10 * corner + record);
+  };
+  for (const std::string name : {"time", "member"}) {
+    EXPECT_EQ(
+        records_of({name, "lat", "bnds"}, {2, 3, 2}, {"lat"}, {3},
+                   values_of_array({2, 3, 2},
+                                   [&](const auto& at) { return moving(at[0], at[1], at[2]); })),
+        DimensionNames{"moves along " + name});
+  }
+  // A record that is missing is another one; records that are all missing are the same.
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(records_of({"time", "x", "v"}, {2, 1, 3}, {"x"}, {1}, {0, 1, 2, 0, none, 2}),
+            DimensionNames{"moves along time"});
+  EXPECT_EQ(records_of({"time", "x", "v"}, {2, 1, 3}, {"x"}, {1}, {0, none, 2, 0, none, 2}),
+            DimensionNames{"time"});
+}
+
+TEST(conventions, bounds_of_curvilinear_grids_repeat) {
+  const DimensionNames places = {"y", "x"};
+  const DimensionLengths lengths = {2, 3};
+  const auto corner = [](std::size_t y, std::size_t x, std::size_t v) {
+    return static_cast<double>(100 * y + 10 * x + v);
+  };
+  EXPECT_EQ(
+      records_of({"y", "x", "v", "time"}, {2, 3, 4, 2}, places, lengths,
+                 values_of_array({2, 3, 4, 2},
+                                 [&](const auto& at) { return corner(at[0], at[1], at[2]); })),
+      DimensionNames{"time"});
+  // The coordinate repeats along a dimension, too: as it says, that counts no corners.
+  EXPECT_EQ(records_of({"nf", "y", "x", "v"}, {2, 2, 3, 4}, places, lengths,
+                       values_of_array({2, 2, 3, 4},
+                                       [&](const auto& at) { return corner(at[1], at[2], at[3]); }),
+                       {"nf"}),
+            DimensionNames{"nf"});
+  // The nodes of the grid have dimensions of their own, one longer, in either order.
+  const auto node = [](const auto& at) { return static_cast<double>(10 * at[1] + at[2]); };
+  EXPECT_EQ(records_of({"time", "xq", "yq"}, {2, 4, 3}, places, lengths,
+                       values_of_array({2, 4, 3}, node)),
+            DimensionNames{"time"});
+  EXPECT_EQ(records_of({"level", "yq", "xq"}, {2, 3, 4}, places, lengths,
+                       values_of_array({2, 3, 4}, node)),
+            DimensionNames{"level"});
+  EXPECT_EQ(records_of({"yq", "xq"}, {3, 4}, places, lengths, Doubles(12)), DimensionNames{});
+  EXPECT_THROW((void)record_dimensions({places, lengths, places, lengths, {}}, Doubles(5)),
+               InvalidInput);
+  EXPECT_THROW((void)record_dimensions({places, {}, places, lengths, {}}, Doubles(1)),
+               InvalidInput);
 }
 
 using io::NetcdfAttribute;
