@@ -156,6 +156,8 @@ void test_variables(const std::vector<VariableHeader>& headers) {
             "a remark says which meridian it is");
     (void)is_planar(headers[i].texts);
   }
+  require(!has_mesh({}), "nothing is no mesh");
+  (void)has_mesh(headers);
 }
 
 void test_coordinates(ByteSource& source) {
@@ -227,6 +229,39 @@ void test_repeated(ByteSource& source) {
   }
   for (const std::size_t d : dimensions_of_cells(of_dimensions, shape, 2)) {
     require(shape[d] == 2, "there are as many cells");
+  }
+}
+
+// Bounds with any dimensions: along those of records they are the same, so that the first one is enough.
+void test_records(ByteSource& source) {
+  std::vector<std::string> of_bounds;
+  std::vector<std::uint64_t> shape;
+  std::size_t size = 1;
+  for (std::size_t rank = source.below(5); rank > 0; --rank) {
+    of_bounds.push_back(one_of(source, dimension_names));
+    shape.push_back(source.below(4));
+    size *= shape.back();
+  }
+  std::vector<std::string> of_places;
+  std::vector<std::uint64_t> lengths;
+  for (std::size_t rank = source.below(3); rank > 0; --rank) {
+    of_places.push_back(one_of(source, dimension_names));
+    lengths.push_back(source.below(4));
+  }
+  const std::vector<std::string> repeated(source.below(2), one_of(source, dimension_names));
+  std::vector<double> bounds(size);
+  const std::size_t num_values = 1 + source.below(2);
+  for (double& bound : bounds) bound = static_cast<double>(source.below(num_values));
+  const std::vector<bool> are_records =
+      record_dimensions({of_bounds, shape, of_places, lengths, repeated}, bounds);
+  require(are_records.size() == shape.size(), "each dimension of bounds has an answer");
+  std::size_t block = size;
+  for (std::size_t d = 0; d < shape.size() && size > 0; ++d) {
+    const std::size_t stride = block / shape[d];
+    for (std::size_t i = 0; are_records[d] && i < size; ++i) {
+      require(bounds[i] == bounds[i - i % block + i % stride], "records are the same");
+    }
+    block = stride;
   }
 }
 
@@ -322,6 +357,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         rondel::fuzz::test_vectors(source);
         rondel::fuzz::test_poles(source);
         rondel::fuzz::test_same(source);
+        rondel::fuzz::test_records(source);
     }
   } catch (const rondel::InvalidInput& error) {
     const std::string what = error.what();
