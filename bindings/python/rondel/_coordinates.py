@@ -218,9 +218,9 @@ class Coordinates:
             made.append(np.asarray(variable.values, np.float64) * unit)
         return made
 
-    def bounds_once(self) -> dict[str, xarray.Variable]:
+    def bounds_once(self) -> dict[Hashable, xarray.Variable]:
         """The variables that are bounds, without dimensions in which all bounds only come again."""
-        made = {}
+        made: dict[Hashable, xarray.Variable] = {}
         places = (self.lon, self.lat)
         for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
             if name is None:

@@ -32,29 +32,41 @@ _TEXT = 2
 _DIMENSIONS, _VARIABLES, _ATTRIBUTES = 10, 11, 12
 
 
-def mesh_bytes(data: Any, lon: str, lat: str) -> bytes:
-    """The variables of a Dataset that describe its mesh; of several topologies of UGRID that whose
-    places these longitudes and latitudes are, or else the first one.
+def mesh_bytes(data: Any, *places: str, attributes: dict[str, str] | None = None) -> bytes:
+    """The variables of a Dataset that describe its mesh, and those of the longitudes and latitudes
+    that are given; of several topologies of UGRID that whose places these are, or else the first
+    one. The file gets the attributes.
     """
-    parts = parts_of_grids(data) | {lon, lat}
+    parts = parts_of_grids(data) | {*places}
     topologies = [name for name in data.variables if _is_topology(data[name])]
     parts -= {str(name) for name in topologies}
     if topologies:
-        kept = next((t for t in topologies if {lon, lat} <= _words(data[t])), topologies[0])
-        parts.add(str(kept))
+        topology = next((t for t in topologies if {*places} <= _words(data[t])), topologies[0])
+        parts.add(str(topology))
     variables = {str(name): data.variables[name] for name in data.variables if str(name) in parts}
-    return _file({name: item for name, item in variables.items() if _can_be_written(item)})
+    kept = {name: item for name, item in variables.items() if _can_be_written(item)}
+    return _file(kept, attributes or {})
 
 
 def _is_topology(variable: Any) -> bool:
-    role = variable.attrs.get("cf_role", variable.attrs.get("standard_name"))
+    known = _meaning(variable)
+    role = known.get("cf_role", known.get("standard_name"))
     return bool(role == "mesh_topology")
 
 
 def _words(variable: Any) -> set[str]:
-    return {
-        word for text in variable.attrs.values() if isinstance(text, str) for word in text.split()
+    texts = (text for text in _meaning(variable).values() if isinstance(text, str))
+    return {word for text in texts for word in text.split()}
+
+
+def _meaning(variable: Any) -> dict[Any, Any]:
+    """The attributes, with the texts that xarray has moved to `encoding`, as node_coordinates."""
+    moved = {
+        key: text
+        for key, text in variable.encoding.items()
+        if isinstance(text, str) and key != "_Unsigned"
     }
+    return {**moved, **variable.attrs}
 
 
 def _can_be_written(variable: Any) -> bool:
@@ -102,11 +114,12 @@ def _numbers(variable: Any) -> Any:
     return values if known else values.astype(np.float64)
 
 
-def _file(variables: dict[str, Any]) -> bytes:
+def _file(variables: dict[str, Any], attributes: dict[str, str]) -> bytes:
     sizes = {str(dim): size for item in variables.values() for dim, size in item.sizes.items()}
     numbers = {dim: k for k, dim in enumerate(sizes)}
     dimensions = [_name(dim) + struct.pack(">q", size) for dim, size in sizes.items()]
-    start = b"CDF\x05" + struct.pack(">q", 0) + _list(_DIMENSIONS, dimensions) + _attributes({})
+    start = b"CDF\x05" + struct.pack(">q", 0) + _list(_DIMENSIONS, dimensions)
+    start += _attributes(attributes)
     heads, contents = [], []
     for name, item in variables.items():
         values = _numbers(item)
@@ -114,7 +127,9 @@ def _file(variables: dict[str, Any]) -> bytes:
         dims = [numbers[str(dim)] for dim in item.dims]
         contents.append(_padded(values.astype(values.dtype.newbyteorder(">")).tobytes()))
         head = _name(name) + struct.pack(f">q{len(dims)}q", len(dims), *dims)
-        heads.append(head + _attributes(item.attrs) + struct.pack(">iq", kind, len(contents[-1])))
+        heads.append(
+            head + _attributes(_meaning(item)) + struct.pack(">iq", kind, len(contents[-1]))
+        )
     place = len(start) + len(_list(_VARIABLES, heads)) + 8 * len(heads)
     placed = []
     for head, content in zip(heads, contents, strict=True):

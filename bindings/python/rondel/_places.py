@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any
@@ -12,7 +13,7 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._arrays import half_turn, in_words, point_set_hash, unit_vectors, unmasked
+from ._arrays import as_threads, half_turn, in_words, point_set_hash, unit_vectors, unmasked
 from ._cell_set import CellSet, axis_lines
 from ._coordinates import (
     MARKS,
@@ -22,6 +23,7 @@ from ._coordinates import (
     are_away,
     grid_in_words,
     grid_of,
+    has_mesh,
     lack_of_pixels,
     pairs_of_values,
     with_dimensions,
@@ -29,6 +31,7 @@ from ._coordinates import (
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import InvalidInput, warn_caller
 from ._geometries import Corners, in_degrees, is_of_geopandas
+from ._mesh_bytes import mesh_bytes
 from ._types import BoolArray, FloatArray, IntArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MAX_APART, are_near, side_of
@@ -42,6 +45,26 @@ def _spread(found: Coordinates) -> tuple[xarray.DataArray, xarray.DataArray]:
     """The latitudes and longitudes of all places, as arrays of one shape."""
     south, west = xarray.broadcast(xarray.DataArray(found.lat), xarray.DataArray(found.lon))
     return south, west
+
+
+def _found(
+    data: Any,
+    lon: Hashable | None,
+    lat: Hashable | None,
+    repeats: Repeats,
+    arguments: tuple[str, str],
+) -> Coordinates:
+    """The coordinates; errors advise the arguments that the caller has for their names."""
+    try:
+        return Coordinates(data, lon, lat, repeats)
+    except InvalidInput:
+        raise
+    except ValueError as error:
+        text = str(error)
+        for kind, argument in zip(("lon", "lat"), arguments, strict=True):
+            text = text.replace(f"{kind}=NAME", f"{argument}=NAME")
+            text = text.replace(f"({kind}=)", f"({argument}=)")
+        raise ValueError(text) from None
 
 
 def _pairs_of(found: Coordinates) -> FloatArray:
@@ -75,6 +98,8 @@ class Places:
         are_targets: bool = False,
         are_cells: bool = False,
         corners: Corners = "error",
+        threads: int | None = None,
+        arguments: tuple[str, str] = ("lon", "lat"),
     ) -> None:
         # With `are_cells` cells that have bounds take part where their centers are missing, too.
         if isinstance(data, (str, os.PathLike)):
@@ -82,6 +107,7 @@ class Places:
         given = data
         self._corners = corners
         self._named_cells: CellSet | None = None  # those of the grid that the data name
+        self._mesh_cells: CellSet | None = None  # those of a mesh, at the centers of which data are
         # Places that have been triangulated, each with the one before it in the same place.
         self.coincident: IntArray = np.zeros((0, 2), np.int64)
         self._cells = data if isinstance(data, CellSet) else None
@@ -106,17 +132,23 @@ class Places:
             )
         # Places of a Dataset may repeat along time; in arrays each of them counts.
         repeats: Repeats = "drop_times" if are_targets else "drop"
-        if data is not given:
+        is_labeled = data is given
+        if not is_labeled:
             lon, lat, repeats = "lon", "lat", "keep"
         data = unpacked(data)
         self._grid = ""
         self._list: str | None = None  # the variable with the numbers of pixels
         if self._cells is not None:
             self._grid = self._cells._cells.facts.name
-        elif data is given and lon is None and lat is None:
+        elif is_labeled and lon is None and lat is None:
             data = self._with_grid(data)
+        is_known = self._cells is not None or self._named_cells is not None
+        if are_cells and is_labeled and not is_known and isinstance(data, xarray.Dataset):
+            data = self._with_mesh(data, lon, lat, threads) if has_mesh(data) else data
+            if self._cells is not None:
+                lon, lat, repeats = "lon", "lat", "keep"
         self._data = data
-        self._found = Coordinates(data, lon, lat, repeats)
+        self._found = _found(data, lon, lat, repeats, arguments)
         lons, lats = self._found.lon, self._found.lat
         # Two axes of a grid: the latitudes come first, as usual.
         south, west = xarray.broadcast(xarray.DataArray(lats), xarray.DataArray(lons))
@@ -146,6 +178,10 @@ class Places:
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
             )
         self._masked: BoolArray | None = None  # those that a mask of a convention leaves out
+        if self._mesh_cells is not None:
+            self._masked = self._mesh_cells.mask
+            self._used = self._masked & self.have_places
+            return
         found = mask_of_convention(data, self._found.lon_name, self.dims)
         if found is not None:
             name, self._masked = found
@@ -195,6 +231,50 @@ class Places:
             self._named_cells = CellSet._some(grid, numbers)
         return data
 
+    def _with_mesh(
+        self, data: xarray.Dataset, lon: Hashable | None, lat: Hashable | None, threads: int | None
+    ) -> Any:
+        """The data, which may be at the centers of the cells of their mesh, or these centers. By
+        `bounds` or along axes cells need no mesh.
+        """
+        is_chosen = lon is not None or lat is not None
+        own: Coordinates | None = None
+        with contextlib.suppress(ValueError):
+            own = Coordinates(data, lon, lat)
+        if own is None and is_chosen:
+            return data  # of which the error will tell
+        if own is not None and (own.are_axes or own.have_bounds):
+            return data
+        cells = self._read_mesh(data, own, is_chosen, threads)
+        pairs = np.zeros((0, 2)) if own is None else _pairs_of(own)
+        centers = cells._degrees()
+        if len(pairs) == len(centers) and are_near(pairs, centers).all():
+            self._mesh_cells = cells
+        elif not is_chosen:
+            self._cells = cells
+            return _centers(cells)
+        return data
+
+    @staticmethod
+    def _read_mesh(
+        data: xarray.Dataset, own: Coordinates | None, is_chosen: bool, threads: int | None
+    ) -> CellSet:
+        """The cells of the mesh of a Dataset, as the library reads them from a file."""
+        names = () if own is None else (own.lon_name, own.lat_name)
+        planar = data.attrs.get("on_a_sphere")
+        is_told = isinstance(planar, str) and not is_chosen
+        attributes = {"on_a_sphere": str(planar)} if is_told else {}
+        # Some cells of SCRIP still have the shape of all; dimensions of the data say what counts.
+        cells = data.drop_vars("grid_dims", errors="ignore")
+        content = mesh_bytes(cells, *names, attributes=attributes)
+        try:
+            made = _core.CellSet.of_mesh(content, as_threads(threads))
+        except OSError as error:
+            raise ValueError(str(error)) from None
+        for remark in made.facts.remarks:
+            warn_caller(remark)
+        return CellSet._of(made)
+
     @property
     def mapping(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """What data at these places say of their grid: the attributes of a grid mapping, and
@@ -212,10 +292,15 @@ class Places:
         """The variables that have the bounds of the coordinates, which of cells are lat_bnds and
         lon_bnds.
         """
-        if self._cells is None:
-            return dict(self._found.bounds_once())
+        cells = self._cells if self._cells is not None else self._mesh_cells
+        if cells is None:
+            return self._found.bounds_once()
         if self._bounds_of_cells is None:
-            self._bounds_of_cells = _bounds_of(self._cells, self._grid, self.dims, self.shape)
+            found = _bounds_of(cells, self._grid, self.dims, self.shape)
+            if self._mesh_cells is not None:
+                own = {"lon_bnds": self._found.lon_name, "lat_bnds": self._found.lat_name}
+                found = {f"{own[str(name)]}_bnds": item for name, item in found.items()}
+            self._bounds_of_cells = found
         return dict(self._bounds_of_cells)
 
     def require_same(self, data: Any) -> None:
@@ -464,7 +549,9 @@ class Places:
     def have_cells(self) -> bool:
         """Whether there are cells around the places: bounds, axes, or a set of cells."""
         have_bounds = self._found.have_bounds or self._corners == "made"
-        is_known = self._cells is not None or self._named_cells is not None
+        is_known = any(
+            cells is not None for cells in (self._cells, self._named_cells, self._mesh_cells)
+        )
         return self.are_axes or is_known or have_bounds
 
     def cells(self, threads: int | None) -> CellSet:
@@ -475,8 +562,9 @@ class Places:
             warn_caller(remark)
         lon, lat = self._found.bounds()
         mask = self.mask()
-        if self._named_cells is not None and not self._found.have_bounds:
-            return self._described(self._named_cells, mask)
+        known = self._mesh_cells if self._mesh_cells is not None else self._named_cells
+        if known is not None and not self._found.have_bounds:
+            return self._described(known, mask)
         if self.are_axes:
             names = self._found.lon_name, self._found.lat_name
             lines = [
@@ -525,7 +613,8 @@ class Places:
         """Whether the corners of cells are none that the data have, but made from the centers."""
         if self._cells is not None:
             return bool(self._cells._cells.facts.are_corners_made)
-        has_cells = self._named_cells is not None or self.are_axes or self._found.have_bounds
+        has_cells = self._named_cells is not None or self._mesh_cells is not None
+        has_cells = has_cells or self.are_axes or self._found.have_bounds
         return self._corners == "made" and not has_cells
 
     def _described(self, cells: CellSet, mask: BoolArray | None) -> CellSet:

@@ -67,7 +67,8 @@ def regrid(
     Parameters
     ----------
     data : Dataset or DataArray
-        Fields with their longitudes and latitudes; arrays of Dask stay lazy. A variable `mask` is a
+        Fields with their longitudes and latitudes, or at the cells of a mesh that the Dataset has
+        (UGRID, SCRIP, ESMF, MPAS, ICON or Exodus); arrays of Dask stay lazy. A variable `mask` is a
         field as others here, and masks nothing, as with `regrid_file`; a warning says so. A
         `Regridder` takes it for a mask, as xESMF does.
     target : str, Dataset, DataArray, dict, tuple or CellSet

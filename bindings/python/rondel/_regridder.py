@@ -74,12 +74,14 @@ class Regridder(Described):
         latitudes are found by their attributes or names (docs/guide/formats.md); they are axes of a
         grid, curvilinear coordinates, or those of points, in degrees, or in radians if the
         attribute `units` says so. Conservative methods take the cells from the coordinates'
-        attribute `bounds`, or from `lon_b` and `lat_b`; cells of axes without these end half way
-        between their centers. A variable `mask`, also among the coordinates of a DataArray, is 0 or
-        missing where places take no part. The masks of SCRIP (`grid_imask`) and OASIS are heeded,
-        too. Masked elements of NumPy arrays count as NaN. Places without longitude or latitude, and
-        cells with a missing corner, are left out with a warning that counts them; with conservative
-        methods cells that have bounds need no longitude and latitude of their own.
+        attribute `bounds`, or from `lon_b` and `lat_b`, or else those of the mesh that a Dataset
+        has by UGRID, SCRIP, ESMF, MPAS, ICON or Exodus, as files have them; cells of axes without
+        these end half way between their centers. A variable `mask`, also among the coordinates of a
+        DataArray, is 0 or missing where places take no part. The masks of SCRIP (`grid_imask`) and
+        OASIS are heeded, too. Masked elements of NumPy arrays count as NaN. Places without
+        longitude or latitude, and cells with a missing corner, are left out with a warning that
+        counts them; with conservative methods cells that have bounds need no longitude and latitude
+        of their own.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' or
         'nearest_d2s' as in ESMF; 'conservative_2nd_normed', whose weights are divided by the
@@ -264,10 +266,16 @@ class Regridder(Described):
         self._extrap_method = extrap_method
         self._remap: Remap | None = None  # what a file says of conservative weights
         self.method = method
-        rules: Any = {"are_cells": method in _CONSERVATIVE, "corners": corners}
+        rules: Any = {"are_cells": method in _CONSERVATIVE, "corners": corners, "threads": threads}
         self._source = Places(ds_in, lon, lat, are_points=locstream_in, **rules)
         self._target = Places(
-            ds_out, lon_out, lat_out, are_points=locstream_out, are_targets=True, **rules
+            ds_out,
+            lon_out,
+            lat_out,
+            are_points=locstream_out,
+            are_targets=True,
+            arguments=("lon_out", "lat_out"),
+            **rules,
         )
         mask = self._target.mask()
         is_nan = unmapped_to_nan or (mask is not None and not mask.all())
