@@ -15,7 +15,7 @@ from . import _core
 from ._arrays import as_fields, as_threads
 from ._cell_set import CellSet
 from ._cells import polygons
-from ._geometries import Edges, Invalid
+from ._geometries import Corners, Edges, Invalid
 from ._pickled import with_arrays
 from ._regrid import without_mask
 from ._remap import CellOverlap
@@ -36,6 +36,7 @@ def zonal_statistics(
     max_missing: float = 1.0,
     lon: Hashable | None = None,
     lat: Hashable | None = None,
+    corners: Corners = "error",
     edges: Edges = "lonlat",
     invalid: Invalid = "error",
     overlap: CellOverlap = "each",
@@ -50,9 +51,9 @@ def zonal_statistics(
     ----------
     data : Dataset or DataArray
         Fields with their longitudes and latitudes, and any other dimensions such as time. Cells are
-        those of the coordinates' bounds or, along axes, half way between the centers, as for
-        `Regridder`. A variable `mask` is a field as others and masks nothing, as in `regrid`; a
-        warning says so.
+        those of the coordinates' bounds or of the mesh that a Dataset has or, along axes, half way
+        between the centers, as for `Regridder`. A variable `mask` is a field as others and masks
+        nothing, as in `regrid`; a warning says so.
     zones : GeoDataFrame, GeoSeries, sequence, mapping, path-like, str or CellSet
         The polygons, as `rondel.polygons` takes them; the name of a grid; or cells.
     statistics : str or iterable of str, optional
@@ -69,6 +70,10 @@ def zonal_statistics(
         missing in, from 0 to 1. By default 1: any value is enough.
     lon, lat : str, optional
         The names of the longitudes and latitudes of `data`, if they are not found.
+    corners : {'error', 'made'}, optional
+        What to do where longitudes and latitudes of two dimensions have no bounds, as those of WRF,
+        ROMS and swaths: 'error' (default), or 'made', which makes corners half way between the
+        centers, extrapolated at the border, and warns of it.
     edges, invalid
         How polygons are read, as in `CellSet.read`.
     overlap : {'each', 'error', 'first', 'share'}, optional
@@ -130,7 +135,11 @@ def zonal_statistics(
     listed = statistics if isinstance(statistics, str) else ",".join(statistics)
     names = _core.names_of_statistics(listed)
     require_share(max_missing, "max_missing", skipna=True)
-    source = Places(without_mask(data, "data"), lon, lat, are_cells=True)
+    if corners not in ("error", "made"):
+        raise ValueError(f"corners must be 'error' or 'made', not {corners!r}")
+    source = Places(
+        without_mask(data, "data"), lon, lat, are_cells=True, corners=corners, threads=threads
+    )
     if isinstance(zones, str) and _core.is_grid_name(zones):
         zones = CellSet.named(zones, threads=threads)
     is_set = isinstance(zones, CellSet)

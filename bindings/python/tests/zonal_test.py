@@ -348,3 +348,24 @@ def test_wrong_calls_are_refused(data):
             rondel.zonal_statistics(other, "grid:90")
     with pytest.raises(ValueError, match="statistics are of the cells"):
         rondel.regrid_file("in.nc", "grid:90", "o.nc", statistics="mean", method="nearest")
+
+
+def test_statistics_of_cells_whose_corners_are_made():
+    lon, lat = np.meshgrid(np.arange(5.0, 65, 10), np.arange(-25.0, 30, 10))
+    data = xarray.Dataset(
+        {"t": (("y", "x"), np.random.default_rng(9).random(lon.shape))},
+        {
+            "lon": (("y", "x"), lon, {"units": "degrees_east"}),
+            "lat": (("y", "x"), lat, {"units": "degrees_north"}),
+        },
+    )
+    with pytest.raises(ValueError, match="corners='made'"):
+        rondel.zonal_statistics(data, "grid:30")
+    with pytest.warns(UserWarning, match="half way between the centers"):
+        found = rondel.zonal_statistics(data, "grid:30", "mean,count", corners="made")
+    with pytest.warns(UserWarning, match="half way between the centers"):
+        means = rondel.regrid(data, "grid:30", corners="made", max_missing=1).t.values.ravel()
+    np.testing.assert_allclose(found.t_mean, means, rtol=1e-12)
+    assert found.t_count.sum() == pytest.approx(36)
+    with pytest.raises(ValueError, match="corners must be 'error' or 'made', not 'none'"):
+        rondel.zonal_statistics(data, "grid:30", corners="none")
