@@ -286,6 +286,17 @@ struct BoundsLayout {
 RONDEL_API std::vector<bool> record_dimensions(const BoundsLayout& layout,
                                                std::span<const double> values);
 
+/// True if the attribute `cell_methods` says that values are sums over cells, such as people per
+/// cell, rather than densities: "area: sum", "lat: lon: sum". What was done last counts.
+/// \param places  the names of the dimensions of places; usual ones are known
+RONDEL_API bool are_sums_over_cells(std::string_view cell_methods,
+                                    std::span<const std::string> places = {});
+
+/// Returns the attribute `cell_methods` after a further method over the area of cells ("mean",
+/// "sum"). It stays as it is if that method was the last one.
+RONDEL_API std::string with_cell_method(std::string_view cell_methods, std::string_view method,
+                                        std::span<const std::string> places = {});
+
 /// True if variables are those of a mesh in a file of UGRID, SCRIP, ESMF, MPAS, ICON or Exodus.
 RONDEL_API bool has_mesh(std::span<const VariableHeader> variables);
 

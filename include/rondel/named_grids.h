@@ -100,6 +100,8 @@ class RONDEL_API NamedGrid {
   [[nodiscard]] GridMapping mapping() const;
   /// Returns the axes of the centers of `grid:` and `F`, else null.
   [[nodiscard]] const LonLatAxes* axes() const { return axes_ ? &*axes_ : nullptr; }
+  /// Returns the lines between the cells of `grid:` and `F`, else null.
+  [[nodiscard]] const LonLatGrid* lines() const { return lines_ ? &*lines_ : nullptr; }
   /// Returns the center of a cell, in degrees.
   [[nodiscard]] LonLat center(std::size_t cell) const;
   /// Returns the center of each cell.

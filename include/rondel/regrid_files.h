@@ -115,6 +115,11 @@ struct RegridFileReport {
 ///         (bounds of times) and the attributes of the file. Or .csv, .tsv, .npy, as write_fields()
 ///         writes them: means over polygons with their properties.
 ///
+/// Of arrays whose `cell_methods` say that they are sums over cells (are_sums_over_cells()), each target
+/// gets its share of the sum of each source by conservative and conservative_2nd: sums are kept, any
+/// part with a value is enough, and nothing is extrapolated. `cell_methods` of the output says what
+/// these methods and largest_share did over cells: "area: mean", "area: sum", "area: mode".
+///
 /// With statistics, variables of numbers of cells (count, fraction, variety) have the unit 1, those of
 /// variance the square of the unit; `cell_methods` says what was done over the area.
 ///

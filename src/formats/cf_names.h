@@ -19,6 +19,9 @@ namespace rondel::formats {
 // Returns the words of a text that spaces separate.
 std::vector<std::string> words_of(const std::string& text);
 
+// True for a usual name of a dimension of places: `lon`, `rlat`, `x`, `ncells`, `xi_rho` ...
+bool is_dimension_of_places(const std::string& dimension);
+
 // Returns the text with ASCII letters in lower case; other characters are not changed.
 std::string lower_case(std::string_view text);
 // Returns the text without blanks at both ends.

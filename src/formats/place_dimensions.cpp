@@ -54,13 +54,17 @@ std::string_view without_number(std::string_view name) {
   return end > 0 && end < name.size() && name[end - 1] == '_' ? name.substr(0, end - 1) : name;
 }
 
-bool is_name_of_places(const std::string& dimension) {
+}  // namespace
+
+bool formats::is_dimension_of_places(const std::string& dimension) {
   const std::string lower = formats::lower_case(dimension);
   return std::ranges::find(place_names, without_number(lower)) != place_names.end() ||
          std::ranges::any_of(place_beginnings, [&](std::string_view beginning) {
            return lower.starts_with(beginning);
          });
 }
+
+namespace {
 
 // Knows the dimensions of places of a file.
 class PlaceDimensions {
@@ -89,7 +93,7 @@ class PlaceDimensions {
   // True if one of the dimensions is such a dimension.
   [[nodiscard]] bool has_any_of(const std::vector<std::string>& dimensions) const {
     return std::ranges::any_of(dimensions, [&](const std::string& name) {
-      return found_.contains(name) || is_name_of_places(name);
+      return found_.contains(name) || formats::is_dimension_of_places(name);
     });
   }
   // Adds the dimension of an index whose attribute `compress` names dimensions of places.

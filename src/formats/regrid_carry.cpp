@@ -60,6 +60,9 @@ class TileCarrier::SourceValues {
     if (job.has_windows) return;
     whole_.resize(count * components_ * job.sources);
     job.file.read(job.array, first, whole_, execution);
+    for (std::size_t row = 0; job.areas_of_sources != nullptr && row < count; ++row) {
+      job.areas_of_sources->divide(0, std::span(whole_).subspan(row * job.sources, job.sources));
+    }
     take_values_that_are_there(job.coincident, job.sources, whole_);
   }
   // Returns the values of all fields at all sources, unless they are read when they are asked for.
@@ -75,6 +78,7 @@ class TileCarrier::SourceValues {
     if (component == 0) {
       window_.resize(components_ * count);
       job_.file.read_points(job_.array, first_ + field, begin, window_);
+      if (job_.areas_of_sources != nullptr) job_.areas_of_sources->divide(begin, window_);
     }
     return std::span(window_).subspan(component * count, count);
   }
@@ -125,14 +129,14 @@ void TileCarrier::carry_group(std::size_t first, std::size_t count) {
   };
   if (ranks_.size == 1) {
     for_tiles(begin, tiles_.num_tiles(), [&](std::size_t number, RemapTile& tile) {
-      take(number, tile.targets, applied(tile, values, count));
+      take(number, tile.targets, values_at(tile, values, count));
     });
   } else {
     const auto compute = [&](std::size_t number) {
       RegridRanks::Message message;
       for_tiles(number, number + 1, [&](std::size_t, RemapTile& tile) {
         add_bytes(std::span<const Index>(tile.targets), message);
-        add_bytes(std::span<const double>(applied(tile, values, count)), message);
+        add_bytes(std::span<const double>(values_at(tile, values, count)), message);
       });
       return message;
     };
@@ -164,6 +168,15 @@ std::vector<double> TileCarrier::applied_second(RemapTile& tile, SourceValues& v
   }
   SecondOrderRemap weights(std::move(tile.part), covered_enough(tile.fractions, job_.max_missing));
   weights.apply(in, result, rules, execution_);
+  return result;
+}
+
+std::vector<double> TileCarrier::values_at(RemapTile& tile, SourceValues& values,
+                                           std::size_t count) const {
+  std::vector<double> result = applied(tile, values, count);
+  if (job_.areas_of_sources == nullptr) return result;
+  const std::vector<double> areas = areas_of_sums(tile.areas, tile.fractions, job_.norm);
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] *= areas[k % areas.size()];
   return result;
 }
 

@@ -17,6 +17,7 @@
 #include "formats/regrid_processes.h"
 #include "formats/regrid_tiles.h"
 #include "formats/regrid_vectors.h"
+#include "formats/side_areas.h"
 #include "rondel/fields.h"
 
 namespace rondel::formats {
@@ -32,6 +33,9 @@ struct ArrayToCarry {
   bool is_largest_share;
   double max_missing;
   bool keeps_sums;  // ApplyOptions::keeps_sums
+  // The areas of the sources if the values are sums over cells, or null; and what weights are divided by.
+  const SideAreas* areas_of_sources = nullptr;
+  RemapNorm norm = RemapNorm::fracarea;
   // What is done with whole fields before they are written, if anything. It gets their values at all
   // sources, so tiles must not have windows.
   using Complete = std::function<void(std::span<const double> values, std::span<double> carried)>;
@@ -59,6 +63,9 @@ class TileCarrier {
 
   void carry_group(std::size_t first, std::size_t count);
   // Returns the values of the fields of a group at the targets of a tile, field by field.
+  [[nodiscard]] std::vector<double> values_at(RemapTile& tile, SourceValues& values,
+                                              std::size_t count) const;
+  // Does the same; of sums over cells these are densities.
   [[nodiscard]] std::vector<double> applied(RemapTile& tile, SourceValues& values,
                                             std::size_t count) const;
   // Does the same with weights of order 2, whose part of a remapping is taken from the tile.

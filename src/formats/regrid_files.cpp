@@ -26,6 +26,7 @@
 #include "formats/regrid_side.h"
 #include "formats/regrid_tiles.h"
 #include "formats/regrid_vectors.h"
+#include "formats/side_areas.h"
 #include "formats/zonal_files.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -204,6 +205,7 @@ class RegridJob {
     }
     report_.remarks = formats::remarks_of(source_, target_, fields_name_, fields_->fields());
     vectors_.emplace(*fields_, fields_name_, options_.vectors, source_, target_);
+    find_sums();
     tell_of_reading();
   }
 
@@ -241,20 +243,6 @@ class RegridJob {
     return formats::has_flags(array) ? FieldMethod::largest_share : FieldMethod::conservative;
   }
 
-  // Returns the arrays of the output without values. Flags stay flags where each target has the value
-  // of one source.
-  [[nodiscard]] std::vector<FieldArray> arrays_at_targets() const {
-    std::vector<FieldArray> arrays = fields_->fields().arrays;
-    const auto& filling = options_.extrapolation;
-    const bool is_mixed = filling && filling->method != Extrapolation::nearest;
-    for (FieldArray& array : arrays) {
-      const FieldMethod method = method_of(array);
-      const bool is_choice = method == FieldMethod::largest_share || method == FieldMethod::nearest;
-      if (!is_choice || is_mixed) remove_flags(array);
-    }
-    return arrays;
-  }
-
   // Returns what the cost of cells depends on.
   [[nodiscard]] static formats::RegridCells facts_of(const RegridSide& side) {
     return {.cells = side.num_places(),
@@ -266,6 +254,50 @@ class RegridJob {
   // True if a tile needs consecutive sources. Extrapolation needs all of them.
   [[nodiscard]] bool has_windows() const {
     return needs_cells_ && source_.has_parallels() && !options_.extrapolation;
+  }
+
+  // True if an array has sums over cells, of which each target gets its share. The method keeps them.
+  [[nodiscard]] bool keeps_sums_of(std::size_t array) const {
+    const FieldMethod method = method_of(fields_->fields().arrays[array]);
+    return has_sums_[array] && vectors_->components(array) == 1 &&
+           (method == FieldMethod::conservative || method == FieldMethod::conservative_2nd);
+  }
+
+  // Returns the arrays as they are written: their attributes say what was done over cells. Flags stay flags
+  // where each target has the value of one source.
+  [[nodiscard]] std::vector<FieldArray> arrays_at_targets() const {
+    std::vector<FieldArray> arrays = fields_->fields().arrays;
+    const auto& filling = options_.extrapolation;
+    const bool is_mixed = filling && filling->method != Extrapolation::nearest;
+    for (std::size_t a = 0; a < arrays.size(); ++a) {
+      const FieldMethod method = method_of(arrays[a]);
+      const bool is_largest = method == FieldMethod::largest_share;
+      if ((!is_largest && method != FieldMethod::nearest) || is_mixed) remove_flags(arrays[a]);
+      if (!is_conservative(method)) continue;
+      const char* const done = is_largest ? "mode" : keeps_sums_of(a) ? "sum" : "mean";
+      formats::add_cell_method(done, arrays[a]);
+    }
+    return arrays;
+  }
+
+  // Finds the arrays with sums over cells, and tells of those that do not stay sums.
+  void find_sums() {
+    const std::vector<FieldArray>& arrays = fields_->fields().arrays;
+    for (const FieldArray& array : arrays) {
+      has_sums_.push_back(formats::has_sums_over_cells(array));
+    }
+    for (std::size_t a = 0; a < arrays.size(); ++a) {
+      if (!has_sums_[a]) continue;
+      const std::string about = "\"" + arrays[a].name + "\" has sums over cells, by cell_methods";
+      if (!keeps_sums_of(a)) {
+        formats::add_remarks(fields_name_,
+                             {about + ": only the conservative methods keep them, of scalars"},
+                             report_.remarks);
+      } else if (options_.extrapolation) {
+        formats::add_remarks(fields_name_, {about + ", which are not extrapolated"},
+                             report_.remarks);
+      }
+    }
   }
 
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
@@ -301,6 +333,13 @@ class RegridJob {
       task.is_in_order = true;
       task.cost = formats::PlaceTiles::cost_of(*options_.method);
     }
+    if (std::ranges::count(has_sums_, true) > 0 && needs_cells_) {
+      // The area of a source, and of a target the area by which densities become sums.
+      const std::size_t of_source = source_.lines_between() == nullptr ? sizeof(double) : 0;
+      task.cost.of_source += of_source;
+      task.cost.of_source_beside += of_source;
+      task.cost.of_target += sizeof(double);
+    }
     if (options_.extrapolation) {
       // A place and its neighbors on both sides; these were measured and rounded up.
       const std::uint64_t of_target =
@@ -330,10 +369,14 @@ class RegridJob {
     }
   }
 
-  // Returns the weights of a method; those of targets with too small a part that is covered are
-  // removed. Of conservative_2nd there are none here, but in second_.
+  // Returns the weights of a method, also of targets with too small a part that is covered. Of
+  // conservative_2nd there are none here, but in second_.
   const Weights& weights_of(FieldMethod method) {
     if (method == FieldMethod::largest_share) method = FieldMethod::conservative;
+    if (second_ && is_second_of_sums_ != are_sums_) {
+      second_.reset();
+      weights_.erase(FieldMethod::conservative_2nd);
+    }
     const auto known = weights_.find(method);
     if (known != weights_.end()) return known->second;
     Weights made = is_conservative(method)
@@ -349,19 +392,37 @@ class RegridJob {
     options.overlap = options_.overlap;
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
     covered_ = covered_enough(made.target_fractions, options_.max_missing);
-    if (options.order == 1) return with_rows(made.weights, covered_);
-    second_.emplace(std::move(made), covered_, options_.is_limited);
+    if (std::ranges::count(has_sums_, true) > 0) {
+      areas_of_targets_ =
+          formats::areas_of_sums(made.target_areas, made.target_fractions, options_.norm);
+    }
+    if (options.order == 1) return std::move(made.weights);
+    // Any part of a target is enough for a sum.
+    second_.emplace(std::move(made), are_sums_ ? std::vector<std::int32_t>() : covered_,
+                    options_.is_limited);
+    is_second_of_sums_ = are_sums_;
     return {};
   }
 
   // True if the area of a missing value counts as 0, so that integrals are kept.
   [[nodiscard]] bool keeps_sums() const {
-    return needs_cells_ && options_.norm == RemapNorm::destarea;
+    return are_sums_ || (needs_cells_ && options_.norm == RemapNorm::destarea);
+  }
+
+  // Returns the share of a target that may lack values. Of a sum each part that is there counts, or
+  // it would not be kept.
+  [[nodiscard]] double max_missing() const { return are_sums_ ? 1 : options_.max_missing; }
+
+  // Returns the areas by which sums of the present array become densities; null for others.
+  const formats::SideAreas* areas_of_sources() {
+    if (!are_sums_) return nullptr;
+    if (!areas_of_sources_) areas_of_sources_.emplace(source_, execution_);
+    return &*areas_of_sources_;
   }
 
   // Extrapolates fields that were carried, if the options ask for it.
   void extrapolate(std::span<const double> values, std::span<double> carried) {
-    if (!options_.extrapolation) return;
+    if (!options_.extrapolation || are_sums_) return;
     if (!filler_) {
       filler_.emplace(
           formats::extrapolator_between(source_, target_, *options_.extrapolation, execution_));
@@ -391,6 +452,7 @@ class RegridJob {
   void carry(std::size_t array, FieldMethod method, RegridOutput& output) {
     const std::size_t num_fields = fields_->fields().arrays[array].num_fields();
     components_ = vectors_->components(array);
+    are_sums_ = keeps_sums_of(array);
     if (!plan_.has_tiles) {
       carry_slices(array, num_fields, method, output);
       return;
@@ -403,8 +465,10 @@ class RegridJob {
                                     .targets = report_.targets,
                                     .has_windows = has_windows(),
                                     .is_largest_share = method == FieldMethod::largest_share,
-                                    .max_missing = options_.max_missing,
+                                    .max_missing = max_missing(),
                                     .keeps_sums = keeps_sums(),
+                                    .areas_of_sources = areas_of_sources(),
+                                    .norm = options_.norm,
                                     .complete = completing(),
                                     .coincident = coincident_};
     formats::TileCarrier(weights, plan_, job, output, ranks_, execution_).run();
@@ -412,7 +476,7 @@ class RegridJob {
 
   // Returns what extrapolates whole fields; nothing if that is not asked for.
   formats::ArrayToCarry::Complete completing() {
-    if (!options_.extrapolation) return {};
+    if (!options_.extrapolation || are_sums_) return {};
     return [this](std::span<const double> values, std::span<double> carried) {
       extrapolate(values, carried);
     };
@@ -494,14 +558,26 @@ class RegridJob {
     }
     const std::size_t count = report_.sources == 0 ? 0 : values.size() / report_.sources;
     std::vector<double> carried(count * report_.targets);
+    for (std::size_t f = 0; are_sums_ && f < count; ++f) {
+      areas_of_sources()->divide(0,
+                                 std::span(values).subspan(f * report_.sources, report_.sources));
+    }
     const ApplyOptions rules{
-        .fill = missing, .max_missing = options_.max_missing, .keeps_sums = keeps_sums()};
+        .fill = missing, .max_missing = max_missing(), .keeps_sums = keeps_sums()};
     if (method == FieldMethod::largest_share) {
       apply_largest_share(weights, values, carried, count, rules, execution_);
     } else if (second_ && method == FieldMethod::conservative_2nd) {
       second_->apply(values, carried, rules, execution_);
     } else {
       apply(weights, values, carried, count, rules, execution_);
+    }
+    for (std::size_t k = 0; is_conservative(method) && k < carried.size(); ++k) {
+      const std::size_t target = k % report_.targets;
+      if (are_sums_) {
+        carried[k] *= areas_of_targets_[target];
+      } else if (covered_[target] == 0) {
+        carried[k] = missing;
+      }
     }
     extrapolate(values, carried);
     return carried;
@@ -583,6 +659,11 @@ class RegridJob {
   std::map<FieldMethod, Weights> weights_;
   std::vector<std::int32_t> covered_;       // targets of which enough is covered
   std::optional<SecondOrderRemap> second_;  // what applies weights of order 2
+  bool is_second_of_sums_ = false;
+  std::vector<bool> has_sums_;  // by array: whether its values are sums over cells
+  bool are_sums_ = false;       // whether the array that is carried has sums that are kept
+  std::optional<formats::SideAreas> areas_of_sources_;
+  std::vector<double> areas_of_targets_;  // by which densities become sums
   formats::RegridPlan plan_;
   std::unique_ptr<formats::RegridTiles> tiles_;
   std::vector<Duplicate> coincident_;  // sources that share a place

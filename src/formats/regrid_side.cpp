@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -213,6 +214,30 @@ double RegridSide::largest_share() const {
   if (num_stored() == 0 || !cells_) return 0;
   const std::vector<double>& areas = overlay::CellSetData::of(*cells_).areas();
   return areas.empty() ? 0 : std::ranges::max(areas) / (4 * std::numbers::pi);
+}
+
+const LonLatGrid* RegridSide::lines_between() const {
+  if (!has_parallels()) return nullptr;
+  return lines_ ? &*lines_ : named_->lines();
+}
+
+// Cells that a formula has are made a part at a time, so that they need not be in memory together.
+std::vector<double> RegridSide::areas(const Execution& execution) {
+  constexpr std::size_t of_part = std::size_t{1} << 18U;
+  if (num_stored() > 0 || cells_ || num_places() <= of_part) {
+    const std::span<const double> found = cells(execution).areas();
+    return {found.begin(), found.end()};
+  }
+  std::vector<double> areas;
+  areas.reserve(num_places());
+  std::vector<Index> numbers;
+  for (std::size_t first = 0; first < num_places(); first += numbers.size()) {
+    numbers.resize(std::min(of_part, num_places() - first));
+    std::iota(numbers.begin(), numbers.end(), static_cast<Index>(first));
+    const CellSet part = named_->cells(numbers, execution);
+    areas.insert(areas.end(), part.areas().begin(), part.areas().end());
+  }
+  return areas;
 }
 
 TiledCells RegridSide::tiled() const {

@@ -56,6 +56,10 @@ class RegridSide {
   [[nodiscard]] std::size_t num_stored() const;
   // Returns the share of the sphere that the largest of these cells has, or 0.
   [[nodiscard]] double largest_share() const;
+  // Returns the lines of cells between meridians and parallels, or null.
+  [[nodiscard]] const LonLatGrid* lines_between() const;
+  // Returns the areas of the cells of a side that was read with cells, in steradians.
+  [[nodiscard]] std::vector<double> areas(const Execution& execution);
   // Returns the cells for tiles. Precondition: has_tiles().
   [[nodiscard]] TiledCells tiled() const;
   // Returns what a file of fields gets to know. In netCDF, a grid along axes has these and no list of

@@ -148,7 +148,7 @@ class Regrid(unittest.TestCase):
         said = self.regrid("in.nc", "healpix:2", "-o", "out.nc")
         self.assertEqual(said.stderr, "")
         with netCDF4.Dataset(self.folder / "out.nc") as out:
-            self.assertEqual(out["t"].cell_methods, "time: mean")
+            self.assertEqual(out["t"].cell_methods, "time: mean area: mean")
             self.assertEqual(out["t"].units, "K")
             self.assertNotIn("scale_factor", out["t"].ncattrs())
             self.assertEqual(out["time"].bounds, "time_bnds")

@@ -265,6 +265,25 @@ void test_records(ByteSource& source) {
   }
 }
 
+// A text of names, methods and remarks in any order; what is done is what was done last.
+void test_cell_methods(ByteSource& source) {
+  constexpr const char* words[] = {"area:", "lat:", "lon:",   "time:", "ncells:", "sum", "mean",
+                                   "where", "land", "(area:", "sum)",  "(",       ")",   ":"};
+  std::string text;
+  for (std::size_t k = source.below(9); k > 0; --k) {
+    text.append(text.empty() ? "" : " ").append(one_of(source, words));
+  }
+  require(!are_sums_over_cells(text) || text.find("sum") != std::string::npos, "sums are told");
+  for (const std::string method : {"sum", "mean"}) {
+    const std::string done = with_cell_method(text, method);
+    require(done.starts_with(text), "what was done before stays");
+    // A comment may be open, and a name may lack its method.
+    const bool is_whole =
+        text.find('(') == std::string::npos && text.find(':') == std::string::npos;
+    require(!is_whole || with_cell_method(done, method) == done, "a method counts once");
+  }
+}
+
 void test_same(ByteSource& source) {
   const LonLat a = {10.0 * source.small(), 1.0 * source.small()};
   const LonLat b = {10.0 * source.small(), 1.0 * source.small()};
@@ -357,6 +376,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         rondel::fuzz::test_vectors(source);
         rondel::fuzz::test_poles(source);
         rondel::fuzz::test_same(source);
+        rondel::fuzz::test_cell_methods(source);
         rondel::fuzz::test_records(source);
     }
   } catch (const rondel::InvalidInput& error) {

@@ -112,6 +112,7 @@ void test_grid(const NamedGrid& grid, const CellSet& cells) {
 
 // Some cells are those of the whole grid, and are known by their centers.
 void test_some(const NamedGrid& grid, const CellSet& cells) {
+  require((grid.lines() == nullptr) == (grid.axes() == nullptr), "axes have lines between them");
   if (grid.axes() != nullptr) return;
   std::vector<Index> numbers;
   std::vector<LonLat> places;

@@ -245,6 +245,19 @@ void add_attributes(nb::module_& module) {
       },
       nb::arg("attribute"), nb::arg("text"), nb::arg("names"));
   module.def(
+      "are_sums_over_cells",
+      [](const std::string& cell_methods, const std::vector<std::string>& places) {
+        return are_sums_over_cells(cell_methods, places);
+      },
+      nb::arg("cell_methods"), nb::arg("places"));
+  module.def(
+      "with_cell_method",
+      [](const std::string& cell_methods, const std::string& method,
+         const std::vector<std::string>& places) {
+        return with_cell_method(cell_methods, method, places);
+      },
+      nb::arg("cell_methods"), nb::arg("method"), nb::arg("places"));
+  module.def(
       "is_attribute_of_places",
       [](const std::string& name) { return is_attribute_of_places(name); }, nb::arg("name"));
   module.def(

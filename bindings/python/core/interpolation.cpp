@@ -58,11 +58,12 @@ auto vector_getter() {
 
 // Returns the sums of rows, or with `has_largest` the values of the largest part of each.
 ArrayOut<double> apply_weights(const Weights& weights, const FieldsIn& fields, double fill,
-                               double max_missing, bool has_largest, unsigned threads) {
+                               double max_missing, bool has_largest, unsigned threads,
+                               bool keeps_sums) {
   const std::size_t count = fields.shape(0) * weights.num_rows();
   return to_array<double>(watched_quietly(count, threads, [&](const Execution& execution) {
     std::vector<double> out(count);
-    const ApplyOptions options{.fill = fill, .max_missing = max_missing};
+    const ApplyOptions options{.fill = fill, .max_missing = max_missing, .keeps_sums = keeps_sums};
     (has_largest ? apply_largest_share : apply)(weights, numbers_of(fields), out, fields.shape(0),
                                                 options, execution);
     return out;
@@ -119,7 +120,8 @@ void add_weights(nb::module_& module) {
       .def("without_columns", &weights_without_columns, nb::arg("mask").noconvert())
       .def("choose_values", [](const Weights& self) { return choose_values(self); })
       .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
-           nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"));
+           nb::arg("max_missing"), nb::arg("has_largest"), nb::arg("threads"),
+           nb::arg("keeps_sums") = false);
   module.def(
       "covered_enough",
       [](const NumbersIn& fractions, double max_missing) {

@@ -63,12 +63,13 @@ class SharedSecondOrder {
 
 ArrayOut<double> apply_second(SharedSecondOrder& self, const PlainFieldsIn& fields,
                               std::size_t num_targets, double fill, double max_missing,
-                              unsigned threads) {
+                              unsigned threads, bool keeps_sums) {
   const std::size_t count = fields.shape(0) * num_targets;
   const std::span<const double> in(fields.data(), fields.size());
   return to_array<double>(watched_quietly(count, threads, [&](const Execution& execution) {
     std::vector<double> out(count);
-    self.apply(in, out, {.fill = fill, .max_missing = max_missing}, execution);
+    self.apply(in, out, {.fill = fill, .max_missing = max_missing, .keeps_sums = keeps_sums},
+               execution);
     return out;
   }));
 }
@@ -99,7 +100,8 @@ void add_remap(nb::module_& module) {
       .def(nb::init<const Remap&, const Weights&, const IndicesIn&>(), nb::arg("remap"),
            nb::arg("weights"), nb::arg("covered").noconvert())
       .def("apply", &apply_second, nb::arg("fields").noconvert(), nb::arg("num_targets"),
-           nb::arg("fill"), nb::arg("max_missing"), nb::arg("threads"));
+           nb::arg("fill"), nb::arg("max_missing"), nb::arg("threads"),
+           nb::arg("keeps_sums") = false);
   add_array<double, &Remap::source_areas>(type, "source_areas");
   add_array<double, &Remap::target_areas>(type, "target_areas");
   add_array<double, &Remap::source_fractions>(type, "source_fractions");

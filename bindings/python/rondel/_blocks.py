@@ -15,10 +15,11 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ._amounts import WeightsOfSums
 from ._second_order import SecondOrderWeights
 from ._weights import Weights
 
-AnyWeights: TypeAlias = Weights | SecondOrderWeights
+AnyWeights: TypeAlias = Weights | SecondOrderWeights | WeightsOfSums
 # The lengths of the blocks along the dimensions of the targets.
 OutputChunks: TypeAlias = int | str | tuple[Any, ...] | Mapping[Hashable, Any] | None
 

@@ -11,6 +11,7 @@ import numpy as np
 import xarray
 
 from . import _core
+from ._amounts import OverCells
 from ._arrays import require_finite_or_nan
 from ._blocks import AnyWeights, OutputChunks, in_blocks
 from ._coordinates import (
@@ -60,18 +61,22 @@ def carried(
     are_chosen: bool = False,
     output_chunks: OutputChunks = None,
     coincident: IntArray | None = None,
+    over_cells: OverCells | None = None,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
     contributes to, while those that need a missing value have NaN. `coincident` has pairs of
     sources in one place, which have the first value that is there. With the
     `how` "by_kind" arrays of flags get the value of the largest part. Flags stay flags there, and
     where `are_chosen` says that each target has the value of one source. Arrays of Dask stay lazy,
-    in blocks of the targets as `output_chunks` says.
+    in blocks of the targets as `output_chunks` says. `over_cells` says what becomes of sums over
+    cells and what the result says of its cells.
     """
+    cells = OverCells(are_told=False) if over_cells is None else over_cells
     data = unpacked(data)
     source.require_same(data)
 
-    def applied(values: Any, name: str, marker: Any, is_largest: bool) -> Any:
+    def applied(values: Any, name: str, marker: Any, is_largest: bool, are_sums: bool) -> Any:
+        used = cells.sums if are_sums and cells.sums is not None else weights
         apply = partial(
             _applied_rows,
             name=name,
@@ -84,11 +89,11 @@ def carried(
             coincident=coincident,
         )
         if not hasattr(values, "__dask_graph__"):
-            found = apply(values, weights)
+            found = apply(values, used)
             return found.reshape((*found.shape[:-1], *wanted.shape))
         return in_blocks(
             values,
-            weights,
+            used,
             len(source.dims),
             wanted.shape,
             wanted.dims,
@@ -97,9 +102,6 @@ def carried(
             _kind(values),
         )
 
-    def is_largest(array: xarray.DataArray) -> bool:
-        return how == "largest_share" or (how == "by_kind" and _has_flags(array))
-
     def moved(array: xarray.DataArray) -> xarray.DataArray:
         _require_dimensions(array, source, wanted)
         if "scale_factor" in array.attrs or "add_offset" in array.attrs:
@@ -107,6 +109,8 @@ def carried(
             warn_caller(
                 f"{name} are packed: their attribute scale_factor or add_offset is not applied"
             )
+        is_largest = how == "largest_share" or (how == "by_kind" and _has_flags(array))
+        are_sums = cells.has_sums(array, source.dims, is_largest=is_largest)
         found = xarray.apply_ufunc(
             applied,
             array,
@@ -118,15 +122,20 @@ def carried(
             kwargs={
                 "name": "the data" if array.name is None else f"the values of {array.name!r}",
                 "marker": missing_marker(array),
-                "is_largest": is_largest(array),
+                "is_largest": is_largest,
+                "are_sums": are_sums,
             },
         )
-        are_flags = are_chosen or is_largest(array)
+        are_flags = are_chosen or is_largest
         found.attrs = {
             name: text
             for name, text in found.attrs.items()
             if _holds_at_targets(str(name), are_flags=are_flags)
         }
+        given = str(array.attrs.get("cell_methods", ""))
+        done = "mode" if is_largest else "sum" if are_sums else cells.method
+        if methods := cells.methods(given, done, source.dims) if keep_attrs else "":
+            found.attrs["cell_methods"] = methods
         found = found.drop_vars(mappings(found)).assign_coords(wanted.coordinates)
         if not mapping:
             return found

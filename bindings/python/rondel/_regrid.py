@@ -81,7 +81,9 @@ def regrid(
         the cells of the mesh of `data` itself, as a `Regridder` does it. Hyphens, as of the
         command, are underscores. By default arrays with the attribute `flag_values`, `flag_masks`
         or `flag_meanings` get 'largest_share', and all others 'conservative', as in `regrid_file`
-        and the command; a method that is named is that of all arrays.
+        and the command; a method that is named is that of all arrays. Of arrays that are sums over
+        cells by their attribute `cell_methods` ("area: sum") each target gets its share of each
+        source's sum with 'conservative' and 'conservative_2nd', whatever `max_missing` is.
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
     max_missing : float, optional
@@ -106,7 +108,8 @@ def regrid(
     Returns
     -------
     Dataset or DataArray
-        The fields at the target, with their attributes.
+        The fields at the target, with their attributes. With means over cells `cell_methods` says
+        so.
 
     Raises
     ------
@@ -149,6 +152,7 @@ def regrid(
         threads=threads,
         progress=progress,
     )
+    regridder._keeps_sums = True
     return regridder(
         data,
         keep_attrs=True,

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
+from ._amounts import OverCells, WeightsOfSums, weights_of_sums
 from ._arrays import as_floats, as_threads, point_set_hash
 from ._blocks import AnyWeights, OutputChunks
 from ._cell_set import CellSet
@@ -294,7 +295,7 @@ class Regridder(Described):
                     made = made._with_rows(covered)
             if extrap_method is None and isinstance(found, Remap) and is_whole:
                 self._remap = found
-            if isinstance(found, Remap) and pieces is not None:
+            if isinstance(found, Remap) and pieces is not None and pieces.order == 2:
                 second = pieces, found.source, np.diff(made.indptr) > 0
         else:
             made = reused(weights, method, extrap_method, self._source, self._target, threads)
@@ -314,6 +315,10 @@ class Regridder(Described):
         self._applied: AnyWeights = (
             made if second is None else SecondOrderWeights.of(*second[:2], made, second[2])
         )
+        self._sums: WeightsOfSums | None = None  # what keeps sums over cells, if it is wanted
+        if weights is None and isinstance(found, Remap) and pieces is not None:
+            self._sums = weights_of_sums(pieces, found.weights, self._applied)
+        self._keeps_sums = False  # as xESMF, unless rondel.regrid says otherwise
 
     @property
     def shape_in(self) -> tuple[int, ...]:
@@ -348,7 +353,7 @@ class Regridder(Described):
         keep_attrs : bool, optional
             Whether to keep attributes, but for those that hold at the source alone: which numbers
             are missing, the grid, the range of the values, and flags of which means are made; by
-            default False.
+            default False. After conservative methods `cell_methods` says that there is a mean.
         skipna : bool, optional
             Whether to leave out missing values; by default False, with which a target that needs a
             missing value is missing.
@@ -420,6 +425,12 @@ class Regridder(Described):
             "are_chosen": self._are_chosen(),
             "output_chunks": output_chunks,
             "coincident": self._coincident,
+            "over_cells": OverCells(
+                "mean" if self.method in _CONSERVATIVE else "",
+                self._sums if self._keeps_sums else None,
+                frozenset(str(name) for pair in vectors for name in pair),
+                is_extrapolated=self._extrap_method is not None,
+            ),
         }
         source = self._source
         if isinstance(data, xarray.Dataset):
@@ -531,7 +542,7 @@ def _made(
     threads: int | None,
     progress: Progress,
 ) -> tuple[Weights | Remap, _core.Remap | None]:
-    """The weights, and of order 2 the pieces of which they are."""
+    """The weights, and of conservative ones the pieces of which they are."""
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
         sides = [side.cells(threads) for side in (source, target)]
@@ -545,7 +556,7 @@ def _made(
             threads=threads,
             progress=progress,
         )
-        return found, pieces if order == 2 else None
+        return found, pieces
     if method == "nearest_s2d":
         made = _nearest(source, target)
     elif method == "nearest_d2s":

@@ -58,6 +58,11 @@ class SecondOrderWeights:
     def indptr(self) -> Any:
         return self._weights.indptr
 
+    def _with_rows_of(self, weights: Weights) -> SecondOrderWeights:
+        """The same with the weights of all targets, also those that are covered too little."""
+        covered = np.diff(weights.indptr) > 0
+        return SecondOrderWeights(weights, covered, self._source, self._norm, self._arrays)
+
     def _of_rows(self, rows: Any) -> SecondOrderWeights:
         """The weights of some targets."""
         offsets = self._arrays["offsets"]
@@ -83,6 +88,29 @@ class SecondOrderWeights:
         fields = as_fields(values, self.shape[1])
         if how != "sum" or not np.isnan(fields).any():
             return self._weights.apply(fields, how=how, **rules)
+        found = self._apply_with_gaps(fields, float(max_missing) if skipna else 0.0, threads)
+        others = ~self._covered & (np.diff(self.indptr) > 0)
+        if others.any():
+            numbers = np.flatnonzero(others)
+            found[..., numbers] = self._weights._of_rows(numbers).apply(fields, **rules)
+        return found
+
+    def _apply_sums(self, values: FloatArray) -> FloatArray:
+        """As that of `Weights`."""
+        fields = as_fields(values, self.shape[1])
+        if not np.isnan(fields).any():
+            return self._weights._apply_sums(fields)
+        return self._apply_with_gaps(fields, 1.0, None, keeps_sums=True)
+
+    def _apply_with_gaps(
+        self,
+        fields: FloatArray,
+        max_missing: float,
+        threads: int | None,
+        *,
+        keeps_sums: bool = False,
+    ) -> FloatArray:
+        """The values at the targets of fields whose gradients end at missing values."""
         if self._made is None:
             covered = np.ascontiguousarray(self._covered, np.int32)
             self._made = _core.SecondOrderRemap(self._remap(), self._weights._weights, covered)
@@ -91,14 +119,11 @@ class SecondOrderWeights:
             fields.reshape(int(np.prod(leading)), self.shape[1]),
             self.shape[0],
             np.nan,
-            float(max_missing) if skipna else 0.0,
+            max_missing,
             as_threads(threads),
-        ).reshape((*leading, self.shape[0]))
-        others = ~self._covered & (np.diff(self.indptr) > 0)
-        if others.any():
-            numbers = np.flatnonzero(others)
-            found[..., numbers] = self._weights._of_rows(numbers).apply(fields, **rules)
-        return found
+            keeps_sums,
+        )
+        return found.reshape((*leading, self.shape[0]))
 
     def _remap(self) -> _core.Remap:
         made = _core.Remap()

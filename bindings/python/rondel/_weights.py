@@ -227,6 +227,14 @@ class Weights(Described):
         )
         return found.reshape((*leading, rows))
 
+    def _apply_sums(self, values: FloatArray) -> FloatArray:
+        """The sums of the values that are there; NaN for targets without any."""
+        fields = as_fields(values, self.shape[1])
+        leading = fields.shape[:-1]
+        flat = fields.reshape(int(np.prod(leading)), self.shape[1])
+        found = self._weights.apply(flat, np.nan, 1.0, False, as_threads(None), True)
+        return found.reshape((*leading, self.shape[0]))
+
     def __matmul__(self, other: ArrayLike) -> FloatArray:
         """The product with a vector (n,) or with matrices (..., n, k)."""
         if np.ndim(other) < 2:

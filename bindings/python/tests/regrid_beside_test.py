@@ -84,7 +84,7 @@ def test_a_field_with_a_name_of_the_target_gives_way(tmp_path):
     for target, name in (("healpix:1", "cell_"), ("grid:30", "cell")):
         found = rondel.regrid(data[["cell", "t"]], target)
         assert list(found.data_vars) == [name, "t"]
-        assert found[name].attrs == {"units": "K"}
+        assert found[name].attrs == {"units": "K", "cell_methods": "area: mean"}
         np.testing.assert_allclose(found[name], 3, rtol=1e-14)
         file = written(data[["cell", "t"]], target, tmp_path)
         np.testing.assert_allclose(file[name], found[name], rtol=1e-15)

@@ -177,7 +177,7 @@ def test_datasets_are_regridded_in_one_call(made):
     found = rondel.regrid(data, "healpix:2")
     wanted = rondel.Regridder(data, "healpix:2", "conservative_normed")(data.warm)
     np.testing.assert_array_equal(found.warm, wanted)
-    assert found.warm.attrs == {"units": "K"}
+    assert found.warm.attrs == {"units": "K", "cell_methods": "area: mean"}
     assert set(np.unique(found.kind)) == {0, 1, 2}
     again = data.rondel.regrid("healpix:2", "largest_share")
     np.testing.assert_array_equal(again.kind, found.kind)
@@ -607,7 +607,8 @@ def test_texts_may_be_empty(made, tmp_path, end):
         assert file.attrs["title"] == ""
         assert file.attrs["history"] == "rondel regrid"
         for side in (file, found):
-            assert {name: side.warm.attrs[name] for name in empty} == empty
+            kept = {**empty, "cell_methods": "area: mean"}
+            assert {name: side.warm.attrs[name] for name in empty} == kept
             assert "flag_meanings" not in side.warm.attrs
             assert side.warm.max() > data.warm.max() - 5
         # An empty list of meanings is none.

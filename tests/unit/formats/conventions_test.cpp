@@ -317,6 +317,38 @@ TEST(conventions, bounds_of_curvilinear_grids_repeat) {
                InvalidInput);
 }
 
+TEST(conventions, sums_over_cells_are_told_by_cell_methods) {
+  for (const char* const text :
+       {"area: sum", "time: mean area: sum", "area: sum time: maximum", "lat: lon: sum",
+        "lat: sum lon: sum", "longitude: latitude: sum", "time: mean (interval: 1 hour) x: y: sum",
+        "ncells: sum", "area: sum where land (comment: area: mean)", "area: mean area: Sum"}) {
+    EXPECT_TRUE(are_sums_over_cells(text)) << text;
+  }
+  for (const char* const text :
+       {"", "time: sum", "area: mean", "lat: sum", "lon: sum lat: mean", "area: sum area: mean",
+        "area: mean (comment: area: sum)", "lat: lon: mean time: sum", "area: sum lat: lon: mean",
+        "sum", "area:"}) {
+    EXPECT_FALSE(are_sums_over_cells(text)) << text;
+  }
+  // Dimensions that have names of their own.
+  const std::vector<std::string> places = {"row", "column"};
+  EXPECT_TRUE(are_sums_over_cells("row: column: sum", places));
+  EXPECT_FALSE(are_sums_over_cells("row: sum", places));
+  EXPECT_FALSE(are_sums_over_cells("row: column: sum"));
+  EXPECT_TRUE(are_sums_over_cells("row: sum", {places.data(), 1}));
+}
+
+TEST(conventions, cell_methods_say_what_was_done_last) {
+  EXPECT_EQ(with_cell_method("", "mean"), "area: mean");
+  EXPECT_EQ(with_cell_method("time: mean", "mean"), "time: mean area: mean");
+  EXPECT_EQ(with_cell_method("area: maximum", "mean"), "area: maximum area: mean");
+  EXPECT_EQ(with_cell_method("area: sum", "mean"), "area: sum area: mean");
+  EXPECT_EQ(with_cell_method("area: sum", "sum"), "area: sum");
+  EXPECT_EQ(with_cell_method("lat: lon: mean time: maximum", "mean"),
+            "lat: lon: mean time: maximum");
+  EXPECT_EQ(with_cell_method("area: mode", "mode"), "area: mode");
+}
+
 using io::NetcdfAttribute;
 using io::NetcdfType;
 
