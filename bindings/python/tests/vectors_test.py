@@ -58,7 +58,8 @@ def test_vectors_are_those_of_regrid_file(winds, method, target, tmp_path):
     )
     found = rondel.regrid(winds, target, method, vectors=[("u", "v")])
     assert list(found.data_vars) == ["u", "t", "v"]
-    assert found.u.attrs == {"units": "m s-1"}
+    done = {"cell_methods": "area: mean"} if method.startswith("conservative") else {}
+    assert found.u.attrs == {"units": "m s-1", **done}
     assert found.v.dtype == np.float32
     with xarray.open_dataset(tmp_path / "out.nc") as wanted:
         np.testing.assert_allclose(found.u.values, wanted.u.values, rtol=0, atol=1e-15)
@@ -104,8 +105,10 @@ def test_attributes_of_components_are_filtered_as_those_of_others_are(winds):
     winds = winds.assign(crs=0).drop_vars("v").assign(v=winds.v)
     wanted = rondel.regrid(winds, "healpix:2")
     found = rondel.regrid(winds, "healpix:2", vectors=[("u", "v")])
+    kept["cell_methods"] += " area: mean"
     assert found.u.attrs == wanted.u.attrs == {**kept, "ancillary_variables": "t v"}
-    assert found.t.attrs == wanted.t.attrs == {"ancillary_variables": "u v"}
+    of_others = {"ancillary_variables": "u v", "cell_methods": "area: mean"}
+    assert found.t.attrs == wanted.t.attrs == of_others
     assert found.u.encoding == wanted.u.encoding
     assert found.u.encoding["grid_mapping"] in found.coords
     regridder = rondel.Regridder(winds, "healpix:2", "conservative")
@@ -267,7 +270,7 @@ def test_other_components_are_those_without_attributes(winds, east, north):
     found = rondel.regrid(winds, "grid:9x7", vectors=[("u", "v")])
     for name in ("u", "v"):
         np.testing.assert_array_equal(found[name], wanted[name])
-        assert found[name].attrs == winds[name].attrs
+        assert found[name].attrs == {**winds[name].attrs, "cell_methods": "area: mean"}
 
 
 def test_vectors_have_no_largest_share(winds):
