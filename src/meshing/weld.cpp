@@ -129,8 +129,7 @@ class Weld {
   }
   [[nodiscard]] bool is_line(Index row) const { return lengths_[row] == length_of_line; }
   // True if two sites are so near along a line or a ring that this has its shape between them. It has
-  // none that a simplification could leave out between places of a line where others are, too, and
-  // between places of a ring where lines are.
+  // none that a simplification could leave out between places where lines meet others.
   [[nodiscard]] bool are_of_one_shape(Index i, Index j) const {
     const std::int64_t most = std::llround(units * along_outline * near_[i]);
     const auto places_of = [&](Index site) {
@@ -140,15 +139,17 @@ class Weld {
     };
     const auto of_i = places_of(i);
     const auto of_j = places_of(j);
-    const bool are_common = of_i.size() > 1 && of_j.size() > 1;
-    const auto has_line = [&](std::span<const PlaceOnRow> places) {
-      return std::ranges::any_of(places, [&](const PlaceOnRow& at) { return is_line(at.row); });
+    const auto is_on_line_and_more = [&](std::span<const PlaceOnRow> places) {
+      return places.size() > 1 &&
+             std::ranges::any_of(places, [&](const PlaceOnRow& at) { return is_line(at.row); });
     };
-    const bool are_of_lines = are_common && has_line(of_i) && has_line(of_j);
+    if (is_on_line_and_more(of_i) && is_on_line_and_more(of_j)) return false;
+    // Both are sorted by rows, of which a place where many lines meet has many.
+    auto first = of_j.begin();
     for (const PlaceOnRow& a : of_i) {
-      for (const PlaceOnRow& b : of_j) {
-        if (a.row != b.row || are_of_lines || (are_common && is_line(a.row))) continue;
-        const std::int64_t way = std::abs(a.along - b.along);
+      while (first != of_j.end() && first->row < a.row) ++first;
+      for (auto b = first; b != of_j.end() && b->row == a.row; ++b) {
+        const std::int64_t way = std::abs(a.along - b->along);
         if (std::min(way, lengths_[a.row] - way) <= most) return true;
       }
     }
