@@ -146,6 +146,7 @@ class TrianglesOfDomain {
     take(domain);
     if (const auto& near = options_.weld) {
       const auto near_at = [&](const Point&) { return *near; };
+      make_crossings_corners();  // so that borders in common have the same sides and stay common
       weld(near_at);
       if (make_crossings_corners()) weld(near_at);
       require_area("the distance of welding");

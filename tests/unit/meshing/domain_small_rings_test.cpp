@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "inputs/random.h"
@@ -127,6 +128,28 @@ TEST_F(SmallRingsTest, parts_of_the_area_that_touch_are_one) {
   expect_same(triangles({{}, {sea_, part}, {}}, options_), triangles({{}, {sea_}, {}}, options_));
   expect_same(triangles({{}, {sea_, part, apart, overlapping}, {}}, options_),
               triangles({{}, {sea_, apart, overlapping}, {}}, options_));
+}
+
+// Two countries with a border in common, of which one has corners where the other one has a side, and a
+// third outline at that border, inside of both: a weld that moves corners of one moves the border of both.
+TEST_F(SmallRingsTest, borders_that_fit_are_not_torn_by_a_weld) {
+  inputs::Random random(6);
+  const Geometries east = polygon({{{0, -3}, {4, -3}, {4, 3}, {0, 3}}});
+  const Geometries west = polygon({{{0, 3}, {-4, 3}, {-4, -3}, {0, -3}, {0, -1}, {0, 1}}});
+  options_ = simplified_by_spacing(2);
+  options_.weld = 0.1 * std::numbers::pi / 180;
+  for (int run = 0; run < 60; ++run) {
+    SCOPED_TRACE(run);
+    options_.tolerance = run % 2 == 0 ? std::optional<double>(0) : std::nullopt;
+    const double lat = -1.2 + 2.4 * random.unit();
+    Ring third;
+    for (int k = 0; k < 3 + run % 4; ++k) {
+      const double angle = 2 * std::numbers::pi * k / (3 + run % 4);
+      const double radius = 0.05 + 0.3 * random.unit();
+      third.push_back({radius * std::cos(angle), lat + radius * std::sin(angle)});
+    }
+    expect_equal({east, west, polygon({third})}, {east, west});
+  }
 }
 
 // An islet and a part of the area that cross do not keep each other.
