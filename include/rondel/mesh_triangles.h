@@ -52,10 +52,11 @@ struct TrianglesOptions {
   RefineOptions refine = {};
   /// How far the coasts, borders and lines of the mesh may be from those given, in radians
   /// (simplified(), rondel/simplify.h, of all of them together). Not given: a quarter of the
-  /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider
-  /// vanish with what is within them. Where features cross, they have corners before they are
-  /// simplified, and polygons of the coast, or of the area, that overlap or touch are united: so a
-  /// coast leaves the area where it did. The clearance is a quarter of the tolerance.
+  /// spacing at the place, or 0 without a spacing. Islands and lakes that are nowhere wider,
+  /// with all corners within the tolerance of one arc, vanish with what is within them. Where
+  /// features cross, they have corners before they are simplified, and polygons of the coast, or of
+  /// the area, that overlap or touch are united: so a coast leaves the area where it did. The
+  /// clearance is a quarter of the tolerance.
   std::optional<double> tolerance = std::nullopt;
   /// Corners, ends and points that are nearer than this, in radians, to another one or to a side are
   /// put there before anything else is done: for gaps and overlaps that rounded numbers leave along

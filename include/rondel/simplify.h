@@ -26,7 +26,8 @@ struct SimplifyOptions {
   /// The tolerance at a place, where it is not the same everywhere; it replaces `tolerance`. It is
   /// called once for each corner, by one thread.
   ToleranceAt tolerance_at = {};
-  /// Whether rings vanish that are nowhere wider than the tolerance. By default they stay, with
+  /// Whether rings vanish that come down to three corners within the tolerance of one of their sides,
+  /// as those do that are nowhere wider, unless they are bent or folded. By default they stay, with
   /// three corners or more.
   bool drop_small = false;
   /// Whether corners stay that are on a ring of one polygon alone: the boundary of a coverage.

@@ -16,6 +16,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "arrangement/arc_distance.h"
 #include "arrangement/node_triangle.h"
 #include "arrangement/point_tree.h"
 #include "exact/vector.h"
@@ -26,37 +27,7 @@ namespace rondel::arrangement {
 namespace {
 
 constexpr std::size_t removal_grain = 1024;
-constexpr double infinite = 4;  // more than any ratio that is allowed
-
-// Returns the square of the sine of the distance of a place from an arc of at most 90 degrees, or
-// more if it is no less than 90 degrees. The error of the sine is below 2^-47.
-class ArcDistance {
- public:
-  ArcDistance(const Point& a, const Point& c)
-      : a_(exact::to_vector(a)), c_(exact::to_vector(c)), normal_(cross(a_, c_ - a_)) {
-    after_a_ = cross(normal_, a_);
-    before_c_ = cross(c_, normal_);
-    squared_length_ = dot(normal_, normal_);
-  }
-  [[nodiscard]] double squared_sine(const Point& place) const {
-    const Vec p = exact::to_vector(place);
-    const Vec step = p - a_;
-    if (squared_length_ > 0 && dot(after_a_, p) >= 0 && dot(before_c_, p) >= 0) {
-      const double height = dot(normal_, step);
-      return height * height / squared_length_;
-    }
-    const double chord = std::min(dot(step, step), dot(p - c_, p - c_));
-    return chord < 2 ? chord * (1 - chord / 4) : infinite;
-  }
-
- private:
-  Vec a_;
-  Vec c_;
-  Vec normal_;
-  Vec after_a_{};
-  Vec before_c_{};
-  double squared_length_ = 0;
-};
+constexpr double infinite = ArcDistance::farther;  // more than any ratio that is allowed
 
 class CornerRemoval {
  public:

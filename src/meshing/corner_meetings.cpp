@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "map/ring_area.h"
-#include "overlay/single_cells.h"
+#include "arrangement/box_tree.h"
 #include "rondel/arrangement.h"
 #include "rondel/constrained_features.h"
 #include "rondel/set_operations.h"
@@ -109,11 +108,30 @@ std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execut
   return rebuilt(all, arranged);
 }
 
-bool have_common_corners(const CellRings& polygons, std::size_t end) {
+bool may_have_common_places(const CellRings& polygons, std::size_t end) {
   std::vector<Point> corners;
-  const std::uint64_t last = polygons.rings[polygons.cells[end]];
-  for (std::uint64_t k = 0; k < last; ++k) corners.push_back(polygons.points[polygons.corners[k]]);
-  return system::distinct(std::span<const Point>(corners)).values.size() < corners.size();
+  std::vector<arrangement::SpaceBox> boxes;
+  for (std::size_t cell = 0; cell < end; ++cell) {
+    arrangement::SpaceBox box = arrangement::empty_box;
+    for (std::uint64_t r = polygons.cells[cell]; r < polygons.cells[cell + 1]; ++r) {
+      for (const Index corner : polygons.corners_of(r)) {
+        const Point& p = polygons.points[corner];
+        corners.push_back(p);
+        box.include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
+      }
+    }
+    if (polygons.cells[cell] == polygons.cells[cell + 1]) continue;
+    // Within its sides a polygon is higher than its corners.
+    box.widen(box.squared_diagonal());
+    boxes.push_back(box);
+  }
+  if (system::distinct(std::span<const Point>(corners)).values.size() < corners.size()) return true;
+  const arrangement::BoxTree tree(boxes, 1);
+  bool is_any = false;
+  for (std::size_t block = 0; block < tree.num_blocks() && !is_any; ++block) {
+    tree.visit_pairs(block, [&](Index, Index) { is_any = true; });
+  }
+  return is_any;
 }
 
 void unite_polygons(std::size_t begin, std::size_t end, Geometries& all,

@@ -21,9 +21,9 @@ namespace rondel::meshing {
 // Returns nothing if arcs meet in corners alone.
 std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execution& execution);
 
-// True if two rings of the first polygons, up to before `end`, have a corner in common, or one ring
-// has it twice.
-bool have_common_corners(const CellRings& polygons, std::size_t end);
+// False only if no two of the first polygons, up to before `end`, have a place in common, and none has a
+// corner twice: the boxes around them do not overlap.
+bool may_have_common_places(const CellRings& polygons, std::size_t end);
 
 // Gives the polygons of the features from `begin` to before `end` to the first of these, as one.
 void unite_polygons(std::size_t begin, std::size_t end, Geometries& all,

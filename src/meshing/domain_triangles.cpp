@@ -200,23 +200,17 @@ class TrianglesOfDomain {
   void simplify_by(const SimplifyOptions& simplify) {
     weld_features();
     const bool is_meeting = meshing::meeting_in_corners(all_, execution_).has_value();
-    if (is_meeting || meshing::have_common_corners(all_.polygons, end_of_area_)) {
+    if (is_meeting || meshing::may_have_common_places(all_.polygons, end_of_area_)) {
       meshing::unite_polygons(0, end_of_coast_, all_, execution_);
       meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
       take_whole();
     }
-    drop_small_rings(0, end_of_coast_, simplify);
-    drop_small_rings(end_of_coast_, end_of_area_, simplify);
-    if (is_meeting) make_crossings_corners();
-    SimplifyOptions rest = simplify;  // small rings are left in polygons of lines alone
-    rest.drop_small = all_.polygons.cells[end_of_area_] != all_.polygons.cells.back();
-    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, rest, execution_);
-    all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    all_.polygons =
+        meshing::without_small_rings(all_.polygons, 0, all_.polygons.num_cells(), simplify);
     take_whole();
-  }
-
-  void drop_small_rings(std::size_t begin, std::size_t end, const SimplifyOptions& simplify) {
-    all_.polygons = meshing::without_small_rings(all_.polygons, begin, end, simplify, execution_);
+    if (is_meeting) make_crossings_corners();
+    SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
+    all_ = {std::move(simple.lines), std::move(simple.polygons)};
     take_whole();
   }
 

@@ -4,7 +4,7 @@
 // Leaves out the islands and lakes of a domain that are nowhere wider than the tolerance, before it is
 // simplified.
 //
-// in    polygons that do not overlap: those of the coast, or those of the area
+// in    polygons
 // out   the same with less rings
 #pragma once
 
@@ -16,11 +16,12 @@
 
 namespace rondel::meshing {
 
-// Leaves out the rings of the polygons from `begin` to before `end` that vanish when they are simplified
-// alone, without a clearance, and those within them. So nothing that a ring touches keeps it, as lines
-// or other rings, whose corners there stay. A polygon that is left without rings and had what is
-// outside of them becomes the whole sphere.
+// Leaves out the rings of the polygons from `begin` to before `end` that are nowhere wider than the
+// tolerance, and those within them: rings along an arc, of which no corner is farther from it, and rings
+// that vanish when they are simplified alone, without a clearance. So nothing that a ring touches or
+// crosses keeps it. A polygon that is left without rings and had what is outside of them becomes the whole
+// sphere.
 CellRings without_small_rings(const CellRings& polygons, std::size_t begin, std::size_t end,
-                              const SimplifyOptions& options, const Execution& execution);
+                              const SimplifyOptions& options);
 
 }  // namespace rondel::meshing

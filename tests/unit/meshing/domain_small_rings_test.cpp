@@ -152,6 +152,36 @@ TEST_F(SmallRingsTest, borders_that_fit_are_not_torn_by_a_weld) {
   }
 }
 
+// A star that is squeezed to a line has folds along it, which no removal of corners undoes.
+TEST_F(SmallRingsTest, folded_rings_along_an_arc_vanish) {
+  inputs::Random random(8);
+  const Geometries far = polygon({box(-8, -7, -7.5, -6.5)});
+  for (int run = 0; run < 100; ++run) {
+    SCOPED_TRACE(run);
+    const int size = 4 + run % 30;
+    Ring star;
+    for (int k = 0; k < size; ++k) {
+      const double angle = 2 * std::numbers::pi * k / size;
+      const double radius = 1 + 3 * random.unit();
+      star.push_back({radius * std::cos(angle), 0.1 * radius * std::sin(angle)});
+    }
+    lines_.clear();
+    expect_equal({polygon({star})}, {});
+    expect_equal({polygon({box(-7, -6, 7, 6), reversed(star)})}, {polygon({box(-7, -6, 7, 6)})});
+    lines_ = {far};
+    expect_equal({polygon({star})}, {});
+  }
+}
+
+// Land inside of other land is one with it, so that its corners keep nothing.
+TEST_F(SmallRingsTest, land_within_land_changes_nothing) {
+  for (const double share : {0.999, 0.99, 0.9, 0.5}) {
+    expect_equal(
+        {polygon({ellipse(0, 0, 6, 6, 60)}), polygon({ellipse(0, 0, 6 * share, 6 * share, 60)})},
+        {polygon({ellipse(0, 0, 6, 6, 60)})});
+  }
+}
+
 // An islet and a part of the area that cross do not keep each other.
 TEST_F(SmallRingsTest, small_parts_of_the_area_vanish_where_islets_cross_them) {
   const Geometries part = polygon({box(12, 0, 12.1, 0.1)});
