@@ -69,7 +69,7 @@ class SmallRing {
     }
     return true;
   }
-  // Of several the one with the least coordinates.
+  // Returns the corner with the least coordinates of those that are farthest from a place.
   [[nodiscard]] Point farthest_from(const Point& place) const {
     return *std::ranges::max_element(corners_, [&](const Point& p, const Point& q) {
       const double of_p = dot(p - place, p - place);
