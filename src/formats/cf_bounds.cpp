@@ -81,7 +81,9 @@ class RecordDimensions {
     std::size_t first = 0;
     for (std::size_t d = are_records_.size(); d-- > 0;) {
       if (are_records_[d] || is_of_places(d)) continue;
-      names = "'" + layout_.dimensions[d] + "'" + (names.empty() ? "" : " and ") + names;
+      std::string name = "'";
+      name.append(layout_.dimensions[d]).append(names.empty() ? "'" : "' and ");
+      names.insert(0, name);
       first = d;
     }
     throw InvalidInput("change along " + names +

@@ -278,10 +278,13 @@ std::string remark_on_meridian(std::span<const VariableHeader> variables,
       });
       if (known == meridians.end() || known->second == 0 || !has_dimensions(variable)) continue;
       const std::string number = system::shortest_text(known->second);
-      return "the longitudes count from the meridian at " + number +
-             " degrees east of Greenwich (longitude_of_prime_meridian of variable " +
-             io::in_quotes(word) + "): add " + number +
-             " to them, and set the attribute to 0 or remove it";
+      std::string why = "the longitudes count from the meridian at ";
+      return why.append(number)
+          .append(" degrees east of Greenwich (longitude_of_prime_meridian of variable ")
+          .append(io::in_quotes(word))
+          .append("): add ")
+          .append(number)
+          .append(" to them, and set the attribute to 0 or remove it");
     }
   }
   return {};

@@ -300,6 +300,28 @@ class RegridJob {
     }
   }
 
+  // Adds what sums over cells and extrapolation need beside weights.
+  void add_costs(formats::RegridTask& task) const {
+    if (std::ranges::count(has_sums_, true) > 0 && needs_cells_) {
+      // The area of a source, and of a target the area by which densities become sums.
+      const std::size_t of_source = source_.lines_between() == nullptr ? sizeof(double) : 0;
+      task.cost.of_source += of_source;
+      task.cost.of_source_beside += of_source;
+      task.cost.of_target += sizeof(double);
+    }
+    if (options_.extrapolation) {
+      // A place and its neighbors on both sides; these were measured and rounded up.
+      const std::uint64_t of_target =
+          options_.extrapolation->method == Extrapolation::creep ? 350 : 40;
+      constexpr std::uint64_t of_source = 120;
+      task.cost.of_source += of_source;
+      task.cost.of_source_beside += of_source;
+      task.cost.of_target += of_target;
+      task.cost.of_target_beside += of_target;
+      task.has_whole_fields = true;
+    }
+  }
+
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
   void make_plan() {
     formats::RegridTask task;
@@ -333,24 +355,7 @@ class RegridJob {
       task.is_in_order = true;
       task.cost = formats::PlaceTiles::cost_of(*options_.method);
     }
-    if (std::ranges::count(has_sums_, true) > 0 && needs_cells_) {
-      // The area of a source, and of a target the area by which densities become sums.
-      const std::size_t of_source = source_.lines_between() == nullptr ? sizeof(double) : 0;
-      task.cost.of_source += of_source;
-      task.cost.of_source_beside += of_source;
-      task.cost.of_target += sizeof(double);
-    }
-    if (options_.extrapolation) {
-      // A place and its neighbors on both sides; these were measured and rounded up.
-      const std::uint64_t of_target =
-          options_.extrapolation->method == Extrapolation::creep ? 350 : 40;
-      constexpr std::uint64_t of_source = 120;
-      task.cost.of_source += of_source;
-      task.cost.of_source_beside += of_source;
-      task.cost.of_target += of_target;
-      task.cost.of_target_beside += of_target;
-      task.has_whole_fields = true;
-    }
+    add_costs(task);
     plan_ = plan_of(task);
     // A run that may be resumed loses the fields of one group of tiles. Weights are computed again
     // for each group, which takes as long as some fields do.

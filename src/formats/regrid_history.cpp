@@ -90,7 +90,10 @@ std::string regrid_command(const std::string& in, const std::string& target,
   line.add_number("--max-missing", options.max_missing, usual.max_missing);
   line.add_word("--overlap", options.overlap, usual.overlap);
   if (options.is_limited) line.add("--limiter", "bounds");
-  for (const auto& [east, north] : options.vectors) line.add("--vector", east + ',' + north);
+  for (const auto& [east, north] : options.vectors) {
+    std::string pair = east;
+    line.add("--vector", pair.append(",").append(north));
+  }
   if (options.extrapolation) add_extrapolation(*options.extrapolation, line);
   line.add_word("--sides", options.cells.sides, usual.cells.sides);
   line.add_word("--edges", options.cells.edges, usual.cells.edges);

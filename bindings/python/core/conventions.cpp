@@ -80,8 +80,8 @@ std::vector<ValueAttribute> attributes_of(const std::vector<ValueAttributeIn>& i
   return attributes;
 }
 
-// Adds what says of values where they are and which are missing.
-void add_value_functions(nb::module_& module) {
+// Adds what says of places which are the same, and along which dimensions they repeat.
+void add_repetitions(nb::module_& module) {
   module.def(
       "are_same_places",
       [](const PairsIn& a, const PairsIn& b, double max_apart_deg) {
@@ -114,6 +114,10 @@ void add_value_functions(nb::module_& module) {
       },
       nb::arg("names"), nb::arg("shape"), nb::arg("places"), nb::arg("lengths"),
       nb::arg("repeated"), nb::arg("bounds").noconvert());
+}
+
+// Adds what says which values are missing, and reads axes.
+void add_value_functions(nb::module_& module) {
   module.def(
       "mark_missing",
       [](const NumbersInOut& values, const std::string& type,
@@ -281,6 +285,7 @@ void add_conventions(nb::module_& module) {
   add_searches(module);
   add_kinds(module);
   add_attributes(module);
+  add_repetitions(module);
   add_value_functions(module);
 }
 
