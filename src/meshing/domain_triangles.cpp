@@ -205,8 +205,7 @@ class TrianglesOfDomain {
       meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
       take_whole();
     }
-    all_.polygons =
-        meshing::without_small_rings(all_.polygons, 0, all_.polygons.num_cells(), simplify);
+    all_.polygons = meshing::without_small_rings(all_.polygons, simplify);
     take_whole();
     if (is_meeting) make_crossings_corners();
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);

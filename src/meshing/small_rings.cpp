@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -85,15 +86,10 @@ class SmallRing {
 
 }  // namespace
 
-CellRings without_small_rings(const CellRings& polygons, std::size_t begin, std::size_t end,
-                              const SimplifyOptions& options) {
+CellRings without_small_rings(const CellRings& polygons, const SimplifyOptions& options) {
   CellRings result;
   result.points = polygons.points;
   for (std::size_t cell = 0; cell < polygons.num_cells(); ++cell) {
-    if (cell < begin || cell >= end) {
-      result.append_cell(polygons, cell);
-      continue;
-    }
     std::vector<bool> dropped;
     for (std::uint64_t ring = polygons.cells[cell]; ring < polygons.cells[cell + 1]; ++ring) {
       dropped.push_back(SmallRing(polygons, ring, options).vanishes(options));
