@@ -207,15 +207,23 @@ void test_axis(ByteSource& source) {
           "lines are finite");
 }
 
-void test_repeated(ByteSource& source) {
-  std::vector<std::string> of_dimensions;
+// Dimensions with any names and lengths below 4.
+struct AnyDimensions {
+  std::vector<std::string> names;
   std::vector<std::uint64_t> shape;
   std::size_t size = 1;
-  for (std::size_t rank = source.below(4); rank > 0; --rank) {
-    of_dimensions.push_back(one_of(source, dimension_names));
-    shape.push_back(source.below(4));
-    size *= shape.back();
+
+  AnyDimensions(ByteSource& source, std::size_t end_of_rank) {
+    for (std::size_t rank = source.below(end_of_rank); rank > 0; --rank) {
+      names.push_back(one_of(source, dimension_names));
+      shape.push_back(source.below(4));
+      size *= shape.back();
+    }
   }
+};
+
+void test_repeated(ByteSource& source) {
+  const auto [of_dimensions, shape, size] = AnyDimensions(source, 4);
   std::vector<double> lon(size);
   std::vector<double> lat(size);
   for (double& value : lon) value = static_cast<double>(source.below(2));
@@ -234,26 +242,14 @@ void test_repeated(ByteSource& source) {
 
 // Bounds with any dimensions: along those of records they are the same, so that the first one is enough.
 void test_records(ByteSource& source) {
-  std::vector<std::string> of_bounds;
-  std::vector<std::uint64_t> shape;
-  std::size_t size = 1;
-  for (std::size_t rank = source.below(5); rank > 0; --rank) {
-    of_bounds.push_back(one_of(source, dimension_names));
-    shape.push_back(source.below(4));
-    size *= shape.back();
-  }
-  std::vector<std::string> of_places;
-  std::vector<std::uint64_t> lengths;
-  for (std::size_t rank = source.below(3); rank > 0; --rank) {
-    of_places.push_back(one_of(source, dimension_names));
-    lengths.push_back(source.below(4));
-  }
+  const auto [of_bounds, shape, size] = AnyDimensions(source, 5);
+  const AnyDimensions places(source, 3);
   const std::vector<std::string> repeated(source.below(2), one_of(source, dimension_names));
   std::vector<double> bounds(size);
   const std::size_t num_values = 1 + source.below(2);
   for (double& bound : bounds) bound = static_cast<double>(source.below(num_values));
   const std::vector<bool> are_records =
-      record_dimensions({of_bounds, shape, of_places, lengths, repeated}, bounds);
+      record_dimensions({of_bounds, shape, places.names, places.shape, repeated}, bounds);
   require(are_records.size() == shape.size(), "each dimension of bounds has an answer");
   std::size_t block = size;
   for (std::size_t d = 0; d < shape.size() && size > 0; ++d) {

@@ -440,19 +440,6 @@ TEST(domain_triangles, gaps_are_filled_however_narrow_they_are) {
   }
 }
 
-// Returns the longest edge in degrees.
-double longest_edge(const DomainTriangles& made) {
-  double most = 0;
-  for (const auto& [a, b, c] : made.mesh.triangles) {
-    for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
-      const Point& from = made.mesh.nodes[p];
-      const Point& to = made.mesh.nodes[q];
-      most = std::max(most, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
-    }
-  }
-  return 2 * std::asin(most / 2) * 180 / std::numbers::pi;
-}
-
 // Islands beside the border of the area, with narrow water between: where it is filled, corners of
 // the new coast are on what was one arc, up to rounding.
 TEST(domain_triangles, borders_beside_filled_water_are_divided) {

@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <set>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "rondel/delaunay.h"
@@ -83,17 +85,25 @@ inline void expect_same(const DomainTriangles& one, const DomainTriangles& other
   EXPECT_EQ(one.features, other.features);
 }
 
-// Returns the length of the shortest edge in degrees.
-inline double shortest_edge(const DomainTriangles& made) {
-  double least = 4;
+// Returns the lengths of the edges of all triangles in degrees.
+inline std::vector<double> edge_lengths(const DomainTriangles& made) {
+  std::vector<double> lengths;
   for (const auto& [a, b, c] : made.mesh.triangles) {
     for (const auto& [p, q] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
       const Point& from = made.mesh.nodes[p];
       const Point& to = made.mesh.nodes[q];
-      least = std::min(least, std::hypot(from.x - to.x, from.y - to.y, from.z - to.z));
+      const double chord = std::hypot(from.x - to.x, from.y - to.y, from.z - to.z);
+      lengths.push_back(2 * std::asin(chord / 2) * 180 / std::numbers::pi);
     }
   }
-  return 2 * std::asin(least / 2) * 180 / std::numbers::pi;
+  return lengths;
+}
+
+inline double shortest_edge(const DomainTriangles& made) {
+  return std::ranges::min(edge_lengths(made));
+}
+inline double longest_edge(const DomainTriangles& made) {
+  return std::ranges::max(edge_lengths(made));
 }
 
 }  // namespace rondel::test
