@@ -8,42 +8,22 @@ Without netCDF4-python ctest says "Skipped".
 """
 
 import importlib.util
-import pathlib
 import shlex
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder, add
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 LON, LAT = np.arange(-180.0, 180, 20) + 10, np.arange(-90.0, 90, 20) + 10
 SHAPE = len(LAT), len(LON)
 FLAGS = {"flag_values": np.array([0, 1], np.int8), "flag_meanings": "sea land"}
 
 
-def add(file, name, dimensions, values, kind="f8", **attributes):
-    variable = file.createVariable(name, kind, dimensions)
-    variable.setncatts(attributes)
-    variable[...] = values
-    return variable
-
-
-class Attributes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_tool(self, *arguments, status=0):
-        done = subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return [line.removeprefix("rondel: ") for line in done.stderr.splitlines()]
-
+class Attributes(ToolInFolder):
     def new(self, name, kind="NETCDF4"):
         """A file with the axes of a grid, and a field of categories."""
         file = netCDF4.Dataset(self.folder / name, "w", format=kind)

@@ -8,27 +8,17 @@ Without netCDF4-python ctest says "Skipped".
 """
 
 import importlib.util
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder, add
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 LON, LAT = np.arange(0.0, 360, 10) + 5, np.arange(-90.0, 90, 10) + 5
 UNITS = {"lat": "degrees_north", "lon": "degrees_east"}
-
-
-def add(file, name, dimensions, values, kind="f8", **attributes):
-    variable = file.createVariable(name, kind, dimensions)
-    variable.setncatts(attributes)
-    variable[...] = values
-    return variable
 
 
 def write(path, lat=LAT, lon=LON, **sizes):
@@ -90,17 +80,7 @@ def write_scrip(file):
     add(file, "grid_imask", ("grid_size",), 1, "i4")
 
 
-class Beside(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_tool(self, *arguments, status=0):
-        done = subprocess.run([TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return [line.removeprefix("rondel: ") for line in done.stderr.splitlines()]
-
+class Beside(ToolInFolder):
     def read(self, path):
         file = netCDF4.Dataset(self.folder / path)
         self.addCleanup(file.close)
