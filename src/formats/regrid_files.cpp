@@ -300,9 +300,11 @@ class RegridJob {
     }
   }
 
+  [[nodiscard]] bool any_sums() const { return std::ranges::count(has_sums_, true) > 0; }
+
   // Adds what sums over cells and extrapolation need beside weights.
   void add_costs(formats::RegridTask& task) const {
-    if (std::ranges::count(has_sums_, true) > 0 && needs_cells_) {
+    if (any_sums() && needs_cells_) {
       // The area of a source, and of a target the area by which densities become sums.
       const std::size_t of_source = source_.lines_between() == nullptr ? sizeof(double) : 0;
       task.cost.of_source += of_source;
@@ -374,8 +376,9 @@ class RegridJob {
     }
   }
 
-  // Returns the weights of a method, also of targets with too small a part that is covered. Of
-  // conservative_2nd there are none here, but in second_.
+  // Returns the weights of a method; those of targets with too small a part that is covered are removed
+  // unless the file has sums, of which any part counts. Of conservative_2nd there are none here, but in
+  // second_.
   const Weights& weights_of(FieldMethod method) {
     if (method == FieldMethod::largest_share) method = FieldMethod::conservative;
     if (second_ && is_second_of_sums_ != are_sums_) {
@@ -397,16 +400,33 @@ class RegridJob {
     options.overlap = options_.overlap;
     Remap made = remap(source_.cells(execution_), target_.cells(execution_), options, execution_);
     covered_ = covered_enough(made.target_fractions, options_.max_missing);
-    if (std::ranges::count(has_sums_, true) > 0) {
+    if (any_sums()) {
       areas_of_targets_ =
           formats::areas_of_sums(made.target_areas, made.target_fractions, options_.norm);
     }
-    if (options.order == 1) return std::move(made.weights);
+    if (options.order == 1) {
+      return any_sums() ? std::move(made.weights) : with_rows(made.weights, covered_);
+    }
     // Any part of a target is enough for a sum.
     second_.emplace(std::move(made), are_sums_ ? std::vector<std::int32_t>() : covered_,
                     options_.is_limited);
     is_second_of_sums_ = are_sums_;
     return {};
+  }
+
+  // Makes sums of densities. In a file that has sums, weights are those of all targets; so values of means
+  // are left out here where too small a part is covered.
+  void finish_beside_sums(std::span<double> carried) const {
+    for (std::size_t first = 0; first < carried.size(); first += report_.targets) {
+      for (std::size_t target = 0; target < report_.targets; ++target) {
+        double& value = carried[first + target];
+        if (are_sums_) {
+          value *= areas_of_targets_[target];
+        } else if (covered_[target] == 0) {
+          value = missing;
+        }
+      }
+    }
   }
 
   // True if the area of a missing value counts as 0, so that integrals are kept.
@@ -576,14 +596,7 @@ class RegridJob {
     } else {
       apply(weights, values, carried, count, rules, execution_);
     }
-    for (std::size_t k = 0; is_conservative(method) && k < carried.size(); ++k) {
-      const std::size_t target = k % report_.targets;
-      if (are_sums_) {
-        carried[k] *= areas_of_targets_[target];
-      } else if (covered_[target] == 0) {
-        carried[k] = missing;
-      }
-    }
+    if (any_sums() && is_conservative(method)) finish_beside_sums(carried);
     extrapolate(values, carried);
     return carried;
   }
