@@ -153,7 +153,7 @@ def test_meshes_are_targets(make):
     bounds = [found[name] for name in found.coords if str(name).endswith("_bnds")]
     assert len(bounds) == 2
     assert {item.dims[0] for item in bounds} == {*found.t.dims}
-    # What was brought there knows its cells again.
+    # The fields at the mesh are a source with cells themselves.
     back = rondel.regrid(found, "grid:30")
     of_cells = rondel.Regridder(CELLS, "grid:30", "conservative_normed")(expected.values)
     np.testing.assert_allclose(back.t, of_cells, rtol=0, atol=1e-9)
