@@ -236,6 +236,7 @@ void ConstrainedFaces::constrain_edges(std::span<const std::array<Index, 2>> end
       const Index f = face_at_[ends[i + system::prefetch_distance][0]];
       system::prefetch(&faces_[f]);
       system::prefetch(&neighbors_[f]);
+      system::prefetch_to_write(&sides_[f]);
     }
     const auto& [a, b] = ends[i];
     if (constrain_edge(a, b)) continue;

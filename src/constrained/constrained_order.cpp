@@ -89,7 +89,7 @@ class PlacesOfFaces {
     while (next != taken.end() || left != changed_.end()) {
       const Index owner = std::min(left != changed_.end() ? left->owner : no_index,
                                    next != taken.end() ? next->owner : no_index);
-      skip_to(owner);
+      skip_to(owner, left != changed_.end() ? left->face : static_cast<Index>(place_.size()));
       if (next_ == face_) begin_ = face_;
       own_.clear();
       for (; face_ < place_.size() && owner_before(face_) == owner; ++face_) {
@@ -133,14 +133,18 @@ class PlacesOfFaces {
     return std::ranges::lower_bound(changed_, f, {}, &ChangedFace::face)->owner;
   }
 
-  // Places the faces of the owners before this one, which have not changed.
-  void skip_to(Index owner) {
-    const auto size = static_cast<Index>(place_.size());
+  // Places the faces of the owners before this one, which have not changed. The bound is a face of
+  // this owner or a later one.
+  void skip_to(Index owner, Index bound) {
     Index low = face_;
-    Index high = face_;
-    for (Index step = 1; high < size && owner_before(high) < owner; step *= 2) {
-      low = high + 1;
-      high += std::min(size - high, step);
+    Index high = bound;
+    for (Index step = 1; high > low; step *= 2) {
+      const Index f = high - std::min(high - low, step);
+      if (owner_before(f) < owner) {
+        low = f + 1;
+        break;
+      }
+      high = f;
     }
     while (low < high) {
       const Index middle = low + (high - low) / 2;
