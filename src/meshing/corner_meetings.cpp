@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "arrangement/box_tree.h"
+#include "map/ring_area.h"
+#include "overlay/single_cells.h"
 #include "rondel/arrangement.h"
 #include "rondel/constrained_features.h"
 #include "rondel/set_operations.h"
@@ -111,20 +113,24 @@ std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execut
 bool may_have_common_places(const CellRings& polygons, std::size_t end) {
   std::vector<Point> corners;
   std::vector<arrangement::SpaceBox> boxes;
+  bool has_outside = false;
   for (std::size_t cell = 0; cell < end; ++cell) {
     arrangement::SpaceBox box = arrangement::empty_box;
+    std::vector<std::vector<Point>> rings;
     for (std::uint64_t r = polygons.cells[cell]; r < polygons.cells[cell + 1]; ++r) {
-      for (const Index corner : polygons.corners_of(r)) {
-        const Point& p = polygons.points[corner];
+      rings.push_back(overlay::points_of_ring(polygons, r));
+      for (const Point& p : rings.back()) {
         corners.push_back(p);
         box.include({{p.x, p.y, p.z}, {p.x, p.y, p.z}});
       }
     }
-    if (polygons.cells[cell] == polygons.cells[cell + 1]) continue;
+    if (rings.empty()) continue;
+    has_outside = has_outside || map::have_outside_on_left(rings);
     // Within its sides a polygon is higher than its corners.
     box.widen(box.squared_diagonal());
     boxes.push_back(box);
   }
+  if (has_outside && boxes.size() > 1) return true;
   if (system::distinct(std::span<const Point>(corners)).values.size() < corners.size()) return true;
   const arrangement::BoxTree tree(boxes, 1);
   bool is_any = false;

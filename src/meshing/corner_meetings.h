@@ -22,7 +22,7 @@ namespace rondel::meshing {
 std::optional<Geometries> meeting_in_corners(const Geometries& all, const Execution& execution);
 
 // False only if no two of the first polygons, up to before `end`, have a place in common, and none has a
-// corner twice: the boxes around them do not overlap.
+// corner twice: the boxes around them do not overlap, and none is on the outside of its rings.
 bool may_have_common_places(const CellRings& polygons, std::size_t end);
 
 // Gives the polygons of the features from `begin` to before `end` to the first of these, as one.

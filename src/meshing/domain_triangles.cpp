@@ -38,32 +38,53 @@
 namespace rondel::mesh {
 namespace {
 
-// Appends geometries from `begin` to before `end`, with the points of their polygons. A polygon that
-// is the whole sphere has no sides, and is appended as one without rings.
-void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
-  std::vector<Index> numbers(more.polygons.points.size(), no_index);
+// Appends polygons from `begin` to before `end`, with their points. One that is the whole sphere has no
+// sides, and is appended as one without rings.
+void append(const CellRings& more, std::size_t begin, std::size_t end, CellRings& all) {
+  std::vector<Index> numbers(more.points.size(), no_index);
   std::vector<Index> ring;
+  for (std::size_t i = begin; i < end; ++i) {
+    for (std::uint64_t r = more.cells[i]; r < more.cells[i + 1]; ++r) {
+      ring.clear();
+      for (const Index corner : more.corners_of(r)) {
+        if (numbers[corner] == no_index) {
+          numbers[corner] = static_cast<Index>(all.points.size());
+          all.points.push_back(more.points[corner]);
+        }
+        ring.push_back(numbers[corner]);
+      }
+      all.append_ring(ring);
+    }
+    all.end_cell();
+  }
+}
+
+void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
   for (std::size_t i = begin; i < end; ++i) {
     for (std::uint64_t k = more.lines.offsets[i]; k < more.lines.offsets[i + 1]; ++k) {
       all.lines.rows.append(more.lines.rows[k]);
     }
     all.lines.end_group();
-    for (std::uint64_t r = more.polygons.cells[i]; r < more.polygons.cells[i + 1]; ++r) {
-      ring.clear();
-      for (const Index corner : more.polygons.corners_of(r)) {
-        if (numbers[corner] == no_index) {
-          numbers[corner] = static_cast<Index>(all.polygons.points.size());
-          all.polygons.points.push_back(more.polygons.points[corner]);
-        }
-        ring.push_back(numbers[corner]);
-      }
-      all.polygons.append_ring(ring);
-    }
-    all.polygons.end_cell();
   }
+  append(more.polygons, begin, end, all.polygons);
 }
 
 void append(const Geometries& more, Geometries& all) { append(more, 0, more.size(), all); }
+
+// Returns the features with their lines, and polygons without rings.
+Geometries lines_alone(const Geometries& all) {
+  Geometries result = {all.lines, {}};
+  for (std::size_t i = 0; i < all.size(); ++i) result.polygons.end_cell();
+  return result;
+}
+
+// Returns features without lines, and with polygons from `begin` to before `end`.
+Geometries polygons_alone(const CellRings& all, std::size_t begin, std::size_t end) {
+  Geometries result;
+  for (std::size_t i = begin; i < end; ++i) result.lines.end_group();
+  append(all, begin, end, result.polygons);
+  return result;
+}
 
 // True if feature i has no line, no point and no polygon.
 bool is_empty(const Geometries& geometries, std::size_t i) {
@@ -176,10 +197,12 @@ class TrianglesOfDomain {
     all_ = {};
     for (const Geometries& more : domain.coast) append(more, all_);
     end_of_coast_ = all_.size();
-    for (const Geometries& more : domain.area) append(more, all_);
-    end_of_area_ = all_.size();
     const auto has_whole = [](const Geometries& more) { return !more.polygons.whole.empty(); };
     is_everywhere_ = domain.area.empty() || std::ranges::any_of(domain.area, has_whole);
+    for (const Geometries& more : domain.area) {
+      append(is_everywhere_ ? lines_alone(more) : more, all_);
+    }
+    end_of_area_ = all_.size();
     if (std::ranges::any_of(domain.coast, has_whole)) refuse_land();
     first_line_ = all_.size();
     for (const Geometries& more : domain.lines) append(more, all_);
@@ -198,8 +221,11 @@ class TrianglesOfDomain {
   // Polygons that overlap or touch are simplified as one, and features that cross after they have corners
   // there: so coasts, borders and lines keep their topology.
   void simplify_by(const SimplifyOptions& simplify) {
-    weld_features();
-    const bool is_meeting = meshing::meeting_in_corners(all_, execution_).has_value();
+    const bool is_coast_alone = end_of_coast_ == all_.size();
+    if (!is_coast_alone) drop_small_rings(simplify);
+    weld_rounding();
+    const bool is_meeting = make_crossings_corners();
+    if (is_meeting) weld_rounding();
     if (is_meeting || meshing::may_have_common_places(all_.polygons, end_of_area_)) {
       meshing::unite_polygons(0, end_of_coast_, all_, execution_);
       meshing::unite_polygons(end_of_coast_, end_of_area_, all_, execution_);
@@ -207,9 +233,50 @@ class TrianglesOfDomain {
     }
     all_.polygons = meshing::without_small_rings(all_.polygons, simplify);
     take_whole();
-    if (is_meeting) make_crossings_corners();
+    if (is_meeting && make_crossings_corners()) weld_rounding();
     SimplifiedFeatures simple = simplified(all_.lines, all_.polygons, simplify, execution_);
     all_ = {std::move(simple.lines), std::move(simple.polygons)};
+    take_whole();
+  }
+
+  // Drops small rings of the coast, of the area and of lines, each by itself: so that nothing is welded
+  // to what vanishes.
+  void drop_small_rings(const SimplifyOptions& simplify) {
+    CellRings kept;
+    for (const auto& [begin, end] : {std::array{std::size_t{0}, end_of_coast_},
+                                     {end_of_coast_, end_of_area_},
+                                     {end_of_area_, all_.size()}}) {
+      Geometries some = polygons_alone(all_.polygons, begin, end);
+      if (end <= end_of_area_) {
+        weld_rounding(some);
+        if (meshing::may_have_common_places(some.polygons, some.size())) {
+          meshing::unite_polygons(0, some.size(), some, execution_);
+        }
+      }
+      some.polygons = meshing::without_small_rings(some.polygons, simplify);
+      for (const Index cell : some.polygons.whole) {
+        kept.whole.push_back(static_cast<Index>(begin) + cell);
+      }
+      append(some.polygons, 0, some.size(), kept);
+    }
+    all_.polygons = std::move(kept);
+    take_whole();
+  }
+
+  // Closes gaps that only rounding leaves between features: of numbers in files, as the spacing sees
+  // it.
+  void weld_rounding(Geometries& features) const {
+    constexpr double share = 1e-4;
+    const auto& spacing = options_.refine.spacing;
+    meshing::weld(features, [&](const Point& place) {
+      const double near = spacing ? share * spacing->spacing(place) : 0;
+      return std::max(meshing::rounding_of_places,
+                      std::min(near, options_.tolerance.value_or(near)));
+    });
+  }
+
+  void weld_rounding() {
+    weld_rounding(all_);
     take_whole();
   }
 
@@ -305,18 +372,6 @@ class TrianglesOfDomain {
     if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
       refuse_land();
     }
-  }
-
-  // Closes gaps that only rounding leaves between features: of numbers in files, as the spacing sees
-  // it.
-  void weld_features() {
-    constexpr double share = 1e-4;
-    const auto& spacing = options_.refine.spacing;
-    weld([&](const Point& place) {
-      const double near = spacing ? share * spacing->spacing(place) : 0;
-      return std::max(meshing::rounding_of_places,
-                      std::min(near, options_.tolerance.value_or(near)));
-    });
   }
 
   // Returns false if arcs cross, unless they are split there, which takes longer.

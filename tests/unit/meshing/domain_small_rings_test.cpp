@@ -121,6 +121,57 @@ TEST_F(SmallRingsTest, lines_and_points_keep_no_islet) {
   }
 }
 
+// Islets some times as wide as what is welded, where a line crosses the border of the sea, a coast or another
+// line: these would run through their corners.
+TEST_F(SmallRingsTest, nothing_is_welded_to_islets_that_vanish) {
+  inputs::Random random(8);
+  const Geometries land = polygon({box(-6, -6, -2, 2)});
+  constexpr double welded = 1e-4 * 4;
+  for (int run = 0; run < 60; ++run) {
+    SCOPED_TRACE(run);
+    const LonLat place = std::array<LonLat, 3>{{{9, 1.5}, {-2, -2.5}, {3, 3}}}[run % 3];
+    const auto beside = [&] { return place.lon_deg + welded * (2 * random.unit() - 1); };
+    const LonLat middle = {beside(), place.lat_deg};
+    Ring islet = ellipse(middle.lon_deg, middle.lat_deg, 1, 1, 3 + run % 4);
+    for (LonLat& p : islet) {
+      const double at = welded * (1 + run % 5) * (0.8 + 1.2 * random.unit());
+      p = {middle.lon_deg + at * (p.lon_deg - middle.lon_deg),
+           middle.lat_deg + at * (p.lat_deg - middle.lat_deg)};
+    }
+    const auto through = [&](double from, double to) {
+      return line({{place.lon_deg - 1, place.lat_deg + from},
+                   {beside(), place.lat_deg},
+                   {place.lon_deg + 1, place.lat_deg + to}});
+    };
+    lines_ = {through(-1.1, 0.7)};
+    if (run % 3 == 2) lines_.push_back(through(1, -1.2));
+    if (run % 3 == 1) {  // the islet may be a cape, which the line crosses
+      const MeshDomain domain = {{land, polygon({islet})}, {sea_}, lines_};
+      EXPECT_GT(shortest_edge(triangles(domain, options_)), welded);
+    } else {
+      expect_equal({land, polygon({islet})}, {land});
+    }
+  }
+}
+
+TEST_F(SmallRingsTest, parts_of_an_area_that_is_everywhere_change_nothing) {
+  const Geometries part = polygon({box(40, 0, 50, 10)});
+  const Geometries beside = polygon({box(50.05, 0, 60, 10)});
+  const Geometries island = polygon({box(0, 0, 20, 20)});
+  Geometries world = polygon({});
+  world.polygons.whole.push_back(0);
+  options_ = simplified_by_spacing(15);
+  const auto made = [&](const std::vector<Geometries>& area) {
+    return triangles({{island}, area, {}}, options_);
+  };
+  expect_same(made({world, part, beside}), made({world}));
+  expect_same(made({part, world}), made({}));
+  // The same in an area that is all but a box.
+  const Geometries rest = polygon({reversed(box(100, -10, 130, 20))});
+  expect_same(made({rest, part, beside}), made({rest}));
+  expect_same(made({part, rest}), made({rest}));
+}
+
 TEST_F(SmallRingsTest, parts_of_the_area_that_touch_are_one) {
   const Geometries part = polygon({{{9, 8}, {9.1, 8}, {9.1, 8.1}}});
   const Geometries apart = polygon({box(20, 0, 30, 8)});
