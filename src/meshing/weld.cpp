@@ -49,6 +49,14 @@ std::int64_t length_of(const Point& a, const Point& b) {
   return std::llround(units * norm(exact::to_vector(a) - exact::to_vector(b)));
 }
 
+// A side of a line or a ring, between two sites, of which the first one is the lower one.
+struct SideOfRow {
+  Index low;
+  Index high;
+  Index row;
+  friend auto operator<=>(const SideOfRow&, const SideOfRow&) = default;
+};
+
 // Where a site is on a line or a ring that has it.
 struct PlaceOnRow {
   Index site;
@@ -83,6 +91,7 @@ class Weld {
     for_each_row([&](std::uint64_t begin, std::uint64_t end, bool is_ring) {
       add_sides(begin, end, is_ring);
     });
+    std::ranges::sort(rows_of_sides_);
     find_sites_on_sides();
     if (num_united_ == 0 && on_sides_.empty() && !has_tiny_ring()) return false;
     FeatureLines lines = welded_lines();
@@ -91,6 +100,7 @@ class Weld {
   }
 
  private:
+  static constexpr auto any_row = [](Index /*row*/) { return true; };
   static constexpr std::int64_t length_of_line = std::numeric_limits<std::int64_t>::max();
 
   // A site on a side, and its order along it: the squared distance of its foot from the end of the
@@ -128,9 +138,11 @@ class Weld {
     lengths_.push_back(is_ring ? along : length_of_line);
   }
   [[nodiscard]] bool is_line(Index row) const { return lengths_[row] == length_of_line; }
-  // True if two sites are so near along a line or a ring that this has its shape between them. It has
-  // none that a simplification could leave out between places where lines meet others.
-  [[nodiscard]] bool are_of_one_shape(Index i, Index j) const {
+  // True if two sites are so near along a line or a ring, one of those for which is_meant(row), that
+  // this has its shape between them. It has none that a simplification could leave out between places
+  // where lines meet others.
+  template <class IsMeant>
+  [[nodiscard]] bool are_of_one_shape(Index i, Index j, const IsMeant& is_meant) const {
     const std::int64_t most = std::llround(units * along_outline * near_[i]);
     const auto places_of = [&](Index site) {
       const auto begin = std::ranges::lower_bound(on_rows_, site, {}, &PlaceOnRow::site);
@@ -150,7 +162,7 @@ class Weld {
       while (first != of_j.end() && first->row < a.row) ++first;
       for (auto b = first; b != of_j.end() && b->row == a.row; ++b) {
         const std::int64_t way = std::abs(a.along - b->along);
-        if (std::min(way, lengths_[a.row] - way) <= most) return true;
+        if (std::min(way, lengths_[a.row] - way) <= most && is_meant(a.row)) return true;
       }
     }
     return false;
@@ -171,7 +183,7 @@ class Weld {
         const Point step = sites[j] - sites[i];
         const double distance = dot(step, step);
         if (!is_before(i, j) || places_[j] != j || distance > squared(near_[i])) return;
-        if (distance > squared(rounding_of_places) && are_of_one_shape(i, j)) return;
+        if (distance > squared(rounding_of_places) && are_of_one_shape(i, j, any_row)) return;
         places_[j] = i;
         ++num_united_;
       });
@@ -182,8 +194,32 @@ class Weld {
   void add_sides(std::uint64_t begin, std::uint64_t end, bool is_ring) {
     for (std::uint64_t k = begin; k < end; ++k) {
       const bool is_last = k + 1 == end;
-      if (!is_last || is_ring) sides_.push_back({numbers_[k], numbers_[is_last ? begin : k + 1]});
+      if (is_last && !is_ring) continue;
+      sides_.push_back({numbers_[k], numbers_[is_last ? begin : k + 1]});
+      const auto [low, high] = std::minmax(sides_.back()[0], sides_.back()[1]);
+      rows_of_sides_.push_back({low, high, num_rows_});
     }
+    ++num_rows_;
+  }
+  // True if a site is beside a side by the shape of a line or a ring that has the side, or by that of an
+  // outline that is at both ends of it: a weld would run to and fro between the corners of a small one
+  // across it. Beside lines that does no harm.
+  [[nodiscard]] bool is_of_one_shape(Index site, const std::array<Index, 2>& side) const {
+    const auto [low, high] = std::minmax(side[0], side[1]);
+    auto has_it = std::ranges::lower_bound(rows_of_sides_, SideOfRow{low, high, 0});
+    const auto has_side = [&, first = has_it](Index row) {
+      return std::ranges::binary_search(first, rows_of_sides_.end(),
+                                        SideOfRow{first->low, first->high, row});
+    };
+    if (are_of_one_shape(site, side[0], has_side) || are_of_one_shape(site, side[1], has_side)) {
+      return true;
+    }
+    while (is_line(has_it->row)) {
+      ++has_it;
+      if (has_it == rows_of_sides_.end() || has_it->low != low || has_it->high != high)
+        return false;
+    }
+    return are_of_one_shape(site, side[0], any_row) && are_of_one_shape(site, side[1], any_row);
   }
 
   void find_sites_on_sides() {
@@ -219,10 +255,7 @@ class Weld {
     const Point normal = normalized(across);
     const double height = dot(normal, p);
     if (!(height * height <= squared(near_[site]))) return;
-    if (std::abs(height) > rounding_of_places &&
-        (are_of_one_shape(site, begin) || are_of_one_shape(site, end))) {
-      return;
-    }
+    if (std::abs(height) > rounding_of_places && is_of_one_shape(site, sides_[side])) return;
     const Point foot = p - height * normal;
     const bool is_between = dot(normal, cross(a, foot)) > 0 && dot(normal, cross(foot, b)) > 0;
     if (!is_between) return;
@@ -378,6 +411,8 @@ class Weld {
   std::vector<Point> sites_;
   std::vector<Index> numbers_;               // the site of each point of lines, and of each corner
   std::vector<std::array<Index, 2>> sides_;  // of lines and rings, one after the other
+  std::vector<SideOfRow> rows_of_sides_;     // sorted
+  Index num_rows_ = 0;                       // of which there are sides
   std::vector<Index> places_;                // of each site: the site whose place it has
   std::vector<double> near_;                 // by site
   std::vector<PlaceOnRow> on_rows_;          // sorted by site
