@@ -73,6 +73,9 @@ struct ApplyOptions {
 /// Multiplies fields by the matrix: out[f * num_rows() + r] becomes the sum of values[k] * in[f *
 /// num_columns + columns[k]] over row r, in the order of the row, for each field f. The bytes are
 /// the same on every machine and for any number of threads.
+///
+/// Where the weights of a row sum up to 1, but for rounding, the sum is a mean: equal values give this
+/// value exactly, and without negative weights no mean is beyond the smallest and the largest value.
 /// \param in  shape (num_fields, num_columns)
 /// \param out  shape (num_fields, num_rows())
 /// \throws InvalidInput if a length is not as described, the weights are not in compressed rows

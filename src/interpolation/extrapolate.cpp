@@ -15,12 +15,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
 #include "exact/angles.h"
 #include "exact/vector.h"
 #include "interpolation/creep_levels.h"
+#include "interpolation/settled_mean.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/query.h"
@@ -105,12 +107,17 @@ class Extrapolator::Impl {
       for (const std::vector<Index>& level : levels_.filled()) {
         for (const Index target : level) {
           double sum = 0;
+          double low = std::numeric_limits<double>::infinity();
+          double high = -low;
           std::size_t number = 0;
           levels_.for_each_giver(neighbors_, target, [&](Index giver) {
             sum += target_values[giver];
+            low = std::min(low, target_values[giver]);
+            high = std::max(high, target_values[giver]);
             ++number;
           });
-          target_values[target] = sum / static_cast<double>(number);
+          // Rounding does not take the mean of some values beyond them.
+          target_values[target] = std::clamp(sum / static_cast<double>(number), low, high);
           ++count;
         }
       }
@@ -122,7 +129,11 @@ class Extrapolator::Impl {
       for (std::uint64_t k = rows_.offsets[t]; k < rows_.offsets[t + 1]; ++k) {
         sum += rows_.values[k] * source_values[rows_.columns[k]];
       }
-      target_values[t] = sum;
+      target_values[t] = interpolation::settled_mean(sum, [&](const auto& visit) {
+        for (std::uint64_t k = rows_.offsets[t]; k < rows_.offsets[t + 1]; ++k) {
+          visit(rows_.values[k], source_values[rows_.columns[k]]);
+        }
+      });
       ++count;
     }
     return count;

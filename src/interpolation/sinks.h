@@ -8,6 +8,7 @@
 // index targets; spatial ranks of vertices in rows
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -16,6 +17,7 @@
 #include "exact/vector.h"
 #include "interpolation/collected_rows.h"
 #include "interpolation/row.h"
+#include "interpolation/settled_mean.h"
 #include "interpolation/sum_of_present.h"
 #include "interpolation/vertex_fields.h"
 #include "interpolation/vertex_gradients.h"
@@ -33,22 +35,37 @@ class FieldSums {
   [[nodiscard]] std::size_t num_fields() const { return values_.num_fields(); }
   [[nodiscard]] double operator()(std::size_t f, const Row& row) const {
     double sum = 0;
-    for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
-    if (std::isfinite(sum)) return sum;
-    return sum_of_present(
-        [&](const auto& visit) {
-          for (const auto& [vertex, weight] : row) visit(weight, values_(f, vertex));
-        },
-        {});
+    double largest = 0;
+    double main = 0;
+    for (const auto& [vertex, weight] : row) {
+      const double value = values_(f, vertex);
+      sum += weight * value;
+      main = weight > largest ? value : main;
+      largest = std::max(largest, weight);
+    }
+    const bool is_finite = std::isfinite(sum);
+    if (is_finite && !may_be_settled(sum, main)) return sum;
+    const auto visit_entries = [&](const auto& visit) {
+      for (const auto& [vertex, weight] : row) visit(weight, values_(f, vertex));
+    };
+    return is_finite ? settled_mean(sum, visit_entries) : sum_of_present(visit_entries, {});
   }
   // The gradient at a vertex with slope 0 is not read, so that it may be anything.
   [[nodiscard]] double operator()(std::size_t f, const GradientRow& row) const {
     double sum = 0;
+    bool is_mean = true;
     for (const auto& [vertex, weight, slope] : row) {
       sum += weight * values_(f, vertex);
-      if (slope != Point{}) sum += dot(slope, (*gradients_)(f, vertex));
+      if (slope == Point{}) continue;
+      const double step = dot(slope, (*gradients_)(f, vertex));
+      sum += step;
+      is_mean &= step == 0;
     }
-    return std::isfinite(sum) ? sum : small_sum(f, row) / scale_of_large;
+    if (!std::isfinite(sum)) return small_sum(f, row) / scale_of_large;
+    if (!is_mean) return sum;
+    return settled_mean(sum, [&](const auto& visit) {
+      for (const auto& [vertex, weight, slope] : row) visit(weight, values_(f, vertex));
+    });
   }
 
  private:

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -29,13 +30,20 @@ struct SharedSites {
 // Returns all vertices with several sites, in increasing order.
 std::vector<SharedSites> shared_places(const PreparedTriangulation& prepared);
 
-// Returns the mean of the numbers value(i) of some sites, which is never beyond the largest of them.
+// Returns the mean of the numbers value(i) of some sites, which is never beyond the smallest or the largest of them.
 template <class Value>
 double mean_of(std::span<const Index> sites, const Value& value) {
   const auto count = static_cast<double>(sites.size());
   double sum = 0;
-  for (const Index i : sites) sum += value(i);
-  if (!std::isinf(sum)) return sum / count;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Index i : sites) {
+    sum += value(i);
+    low = std::min(low, value(i));
+    high = std::max(high, value(i));
+  }
+  if (std::isnan(sum) || low > high) return sum / count;
+  if (!std::isinf(sum)) return std::clamp(sum / count, low, high);
   // Parts of the largest numbers have a sum, or one that rounding alone makes too large.
   double mean = 0;
   double largest = 0;

@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 
+#include "interpolation/settled_mean.h"
 #include "interpolation/sum_of_present.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -115,6 +116,14 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
       options);
 }
 
+double settled_mean(const Weights& weights, std::size_t row, const double* in, double sum) {
+  return interpolation::settled_mean(sum, [&](const auto& visit) {
+    for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
+      visit(weights.values[k], in[weights.columns[k]]);
+    }
+  });
+}
+
 // The number of fields of which a row is summed at once: entries are loaded once for all of them, and
 // their sums do not wait for each other. Sixteen take longer than eight.
 constexpr std::size_t fields_together = 8;
@@ -126,6 +135,13 @@ struct FieldRun {
   std::size_t length;
   [[nodiscard]] T* field(std::size_t f) const { return begin + f * length; }
 };
+
+// Returns a number that has the upper half of a weight, and below it a column. Bits of positive numbers are
+// in the order of the numbers, so that the largest of a row has its largest weight but for 2^-20 of it.
+std::int64_t weight_with_column(double weight, Index column) {
+  constexpr std::uint64_t lower_half = 0xffffffff;
+  return static_cast<std::int64_t>((std::bit_cast<std::uint64_t>(weight) & ~lower_half) | column);
+}
 
 // Applies some rows to so many fields. Returns false if a weight is not finite, of which no sum is.
 // Precondition: the weights are valid, so that the loop over entries goes without checks.
@@ -139,22 +155,36 @@ bool apply_rows(const Weights& weights, std::size_t begin, std::size_t end,
   const double* const values = weights.values.data();
   const std::size_t num_entries = weights.columns.size();
   for (std::size_t r = begin; r < end; ++r) {
-    const bool is_empty = offsets[r] == offsets[r + 1];
+    if (offsets[r] == offsets[r + 1]) {
+      for (std::size_t f = 0; f < num_fields; ++f) out.field(f)[r] = options.fill;
+      continue;
+    }
     std::array<double, num_fields> sums{};
+    std::int64_t largest = std::numeric_limits<std::int64_t>::min();
     for (std::uint64_t k = offsets[r]; k < offsets[r + 1]; ++k) {
+      largest = std::max(largest, weight_with_column(values[k], columns[k]));
       const Index next = columns[std::min(k + system::prefetch_distance, num_entries - 1)];
       for (std::size_t f = 0; f < num_fields; ++f) {
         system::prefetch(in.field(f) + next);
         sums[f] += values[k] * in.field(f)[columns[k]];
       }
     }
+    const auto main = static_cast<Index>(largest & 0xffffffff);
+    // Branches that depend on values cost more than what they spare.
+    unsigned is_any_special = 0;
     for (std::size_t f = 0; f < num_fields; ++f) {
-      double sum = is_empty ? options.fill : sums[f];
-      if (!is_empty && !std::isfinite(sum)) {
+      out.field(f)[r] = sums[f];
+      is_any_special |= unsigned{interpolation::may_be_settled(sums[f], in.field(f)[main])};
+    }
+    if (is_any_special == 0) continue;
+    for (std::size_t f = 0; f < num_fields; ++f) {
+      if (!interpolation::may_be_settled(sums[f], in.field(f)[main])) continue;
+      if (std::isfinite(sums[f])) {
+        out.field(f)[r] = settled_mean(weights, r, in.field(f), sums[f]);
+      } else {
         is_right = is_right && are_finite(weights, r);
-        sum = sum_of_present(weights, r, in.field(f), options);
+        out.field(f)[r] = sum_of_present(weights, r, in.field(f), options);
       }
-      out.field(f)[r] = sum;
     }
   }
   return is_right;

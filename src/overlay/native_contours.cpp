@@ -23,6 +23,7 @@
 #include "exact/point_order.h"
 #include "exact/vector.h"
 #include "interpolation/contour_surface.h"
+#include "interpolation/settled_mean.h"
 #include "overlay/barycentric.h"
 #include "overlay/overlaps.h"
 #include "rondel/contours.h"
@@ -145,7 +146,12 @@ class CellTriangles {
       for (std::uint64_t k = weights.offsets[m]; k < weights.offsets[m + 1]; ++k) {
         value += weights.values[k] * values_[own_[weights.columns[k]]];
       }
-      values_.push_back(value);
+      const std::uint64_t end = weights.offsets[m + 1];
+      values_.push_back(interpolation::settled_mean(value, [&](const auto& visit) {
+        for (std::uint64_t k = weights.offsets[m]; k < end; ++k) {
+          visit(weights.values[k], values_[own_[weights.columns[k]]]);
+        }
+      }));
     }
   }
 

@@ -59,14 +59,19 @@ bool is_a_number_of_cells(ZonalOperation operation) {
          operation == ZonalOperation::variety;
 }
 
+// Returns the mean, which rounding does not take beyond the values: constants are exact.
 double mean_of(std::span<const ZonalValue> values) {
   double sum = 0;
   double weights = 0;
+  double low = values.front().value;
+  double high = low;
   for (const ZonalValue& v : values) {
     sum += v.weight * v.value;
     weights += v.weight;
+    low = std::min(low, v.value);
+    high = std::max(high, v.value);
   }
-  return sum / weights;
+  return std::clamp(sum / weights, low, high);
 }
 
 double variance_of(std::span<const ZonalValue> values) {

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,56 @@ TEST(interpolation_weights, rows_are_sums_and_rows_without_entries_are_filled) {
   EXPECT_TRUE(std::isnan(out[1]));
   EXPECT_EQ(out[2], 9);
   EXPECT_EQ(applied({8, 4, 16, 100}, {.fill = -9}), std::vector<double>({76, -9, 9}));
+}
+
+// Weights 1/7 and the like sum up to 1 but for rounding, in rows of each length and in groups of fields.
+TEST(interpolation_weights, constants_are_exact_and_means_within_their_values) {
+  std::mt19937 random(5);
+  Weights weights;
+  weights.num_columns = 50;
+  for (std::size_t r = 0; r < 500; ++r) {
+    const std::size_t size = 1 + r % 40;
+    std::vector<double> parts(size);
+    double all = 0;
+    const bool has_negative = r % 3 == 0 && size > 1;
+    for (double& part : parts) part = std::uniform_real_distribution<double>(0, 1)(random);
+    if (has_negative) parts.front() = -parts.front() / static_cast<double>(2 * size);
+    for (const double part : parts) all += part;
+    for (std::size_t k = 0; k < size; ++k) {
+      weights.columns.push_back(static_cast<Index>((7 * r + k) % 50));
+      weights.values.push_back(parts[k] / all);
+    }
+    weights.end_row();
+  }
+  for (const std::size_t num_fields : {1U, 4U, 13U}) {
+    for (const double constant : {280.1, -0.1, 1e-300, 5e-324, 1e308, 0.0}) {
+      std::vector<double> in(num_fields * 50, constant);
+      std::vector<double> out(num_fields * 500);
+      apply(weights, in, out, num_fields);
+      for (const double value : out) EXPECT_EQ(value, constant);
+      for (std::size_t k = 0; k < in.size(); k += 3) in[k] = std::nan("");
+      apply(weights, in, out, num_fields, {.max_missing = 1});
+      for (const double value : out) EXPECT_TRUE(std::isnan(value) || value == constant) << value;
+    }
+    // Values that differ in their last bits, of rows whose weights are not negative.
+    std::vector<double> in;
+    for (std::size_t k = 0; k < num_fields * 50; ++k)
+      in.push_back(280.1 + (k % 3 == 0 ? 6e-14 : 0));
+    std::vector<double> out(num_fields * 500);
+    apply(weights, in, out, num_fields);
+    const auto [low, high] = std::ranges::minmax(in);
+    for (std::size_t r = 0; r < out.size(); ++r) {
+      const bool has_negative = r % 500 % 3 == 0;
+      EXPECT_TRUE(has_negative || (out[r] >= low && out[r] <= high)) << out[r] - low;
+    }
+  }
+  // A row whose sum is not 1 is no mean.
+  EXPECT_EQ(applied({3, 3, 3, 3})[0], 3);
+  const Weights half = {
+      .offsets = {0, 2}, .columns = {0, 1}, .values = {0.25, 0.25}, .num_columns = 2};
+  std::vector<double> out(1);
+  apply(half, std::vector<double>{3, 3}, out);
+  EXPECT_EQ(out[0], 1.5);
 }
 
 TEST(interpolation_weights, choose_values_where_each_row_has_one_entry_that_is_1) {
