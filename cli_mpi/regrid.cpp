@@ -104,12 +104,11 @@ void add_extrapolation(CLI::App& command, RegridFileOptions& options) {
 
 // Adds vectors, limits of order 2 and the kind of netCDF.
 void add_values(CLI::App& command, RegridFileOptions& options) {
-  command
-      .add_option_function<std::string>(
-          "--limiter",
-          [&options](const std::string& word) { options.is_limited = word == "bounds"; },
-          "conservative-2nd: none, or bounds: no value is beyond those of its sources")
-      ->check(CLI::IsMember({"none", "bounds"}));
+  add_word<RemapLimiter>(
+      command, "--limiter", [&options](RemapLimiter limiter) { options.limiter = limiter; },
+      "conservative-2nd: none, bounds: no value is beyond those of its sources, or slopes: the "
+      "gradient "
+      "in a source leads to no value beyond those around it");
   command
       .add_option_function<std::vector<std::string>>(
           "--vector",
@@ -192,7 +191,7 @@ std::string common_part(const RegridArguments& arguments) {
   add(name_of(options.cells.edges));
   add(name_of(options.cells.invalid));
   add(name_of(options.cells.corners));
-  add(options.is_limited ? "bounds" : "");
+  add(name_of(options.limiter));
   for (const auto& [east, north] : options.vectors) {
     add(east);
     add(north);

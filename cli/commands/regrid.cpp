@@ -113,12 +113,11 @@ void add_methods(CLI::App& parser, RegridCommandOptions& options) {
       parser, "--overlap", options.regrid.overlap, named_values<CellOverlap>(),
       "Cells of one side that overlap: error (default), first, share, or each: every target has\n"
       "all of its places");
-  const CLI::Option* const limiter = parser.add_option_function<std::string>(
-      "--limiter",
-      [&options](const std::string& text) { options.regrid.is_limited = text == "bounds"; },
-      "conservative-2nd: none (default), or bounds: no value is beyond those of its sources,\n"
-      "and the integral over what has values is kept");
-  parser.get_option("--limiter")->check(one_of({"none", "bounds"}))->type_name("WORD");
+  const CLI::Option* const limiter = add_word<RemapLimiter>(
+      parser, "--limiter", options.regrid.limiter, named_values<RemapLimiter>(),
+      "conservative-2nd: none (default); bounds: no value is beyond those of its sources, and\n"
+      "the integral over what has values is kept; or slopes: the gradient in a source leads to\n"
+      "no value beyond those around it, and each source keeps its integral");
   require_effect(
       options.common, limiter,
       [&options] { return options.regrid.method == FieldMethod::conservative_2nd; },
@@ -244,8 +243,8 @@ void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
           ->check([](const std::string& text) { return whole_error(text, 1, 1'000'000'000); })
           ->type_name("N");
   require_effect(
-      options.common, tile, [&options] { return !options.regrid.is_limited; },
-      "with --limiter bounds, which needs the values of all targets");
+      options.common, tile, [&options] { return options.regrid.limiter == RemapLimiter::none; },
+      "with --limiter, which needs whole fields");
   parser.add_flag("--resume", options.regrid.resume,
                   "Keep what is computed in OUTPUT.partial until OUTPUT is complete, and begin\n"
                   "with what a run that ended early left there");

@@ -55,9 +55,8 @@ struct RegridFileOptions {
   /// What conservative sums are divided by. With fracarea constants are kept where sources cover a
   /// part of a target; with destarea integrals are.
   RemapNorm norm = RemapNorm::fracarea;
-  /// Whether values of conservative_2nd are limited to the bounds of their sources
-  /// (apply_limited()).
-  bool is_limited = false;
+  RemapLimiter limiter =
+      RemapLimiter::none;  ///< what keeps values of conservative_2nd within bounds
   /// The share of a target that no source may cover, and of its covered part in which sources may
   /// have no values.
   /// With 0 any lack is too much, with 1 any value is enough. At the limit, up to 1e-9, a target has a

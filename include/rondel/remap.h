@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -146,16 +147,37 @@ RONDEL_API void apply_limited(const Remap& remap, std::span<const double> in, st
                               std::size_t num_fields = 1, const ApplyOptions& options = {},
                               const Execution& execution = {});
 
+/// What keeps values of order 2 within bounds.
+enum class RemapLimiter : std::uint8_t {
+  none,
+  bounds,  ///< apply_limited(): the bounds of the sources of a target, by the values of all targets
+  /// Monotone slopes (Barth and Jespersen, AIAA paper 89-0366, 1989): the gradient of each source is
+  /// multiplied by the largest number in [0, 1] for which the field in the source is within the smallest
+  /// and the largest value of this source and of those that share a corner with it. A value is then within
+  /// those of the sources of its target and the sources around them. The mean of each source is kept, and
+  /// so are integrals, of each source by itself; a linear field is not changed where the corners of cells
+  /// are nearer than the centers around them. Sources without a value do not count.
+  slopes,
+};
+
+/// Returns the name of a value: "none", "bounds", "slopes"; empty for other numbers.
+RONDEL_API std::string_view name_of(RemapLimiter limiter) noexcept;
+
+namespace overlay {
+class SlopeLimiter;
+}
+
 /// Applies a remapping of order 2 to fields that may lack values in some sources: as apply() does where all
 /// are there, and otherwise with the weights of weights_with_values(). A target has no value if more than
 /// `max_missing` of what covers it lacks values, by area: weights of order 2 are no shares.
 class SecondOrderRemap {
  public:
   /// \param covered  0 for each target that gets no value; empty: none of them
-  /// \param is_limited  whether values are those of apply_limited()
+  /// \param limiter  with RemapLimiter::slopes the weights of `remap` are not needed: they are no weights
+  ///                 of values, as slopes depend on the field
   /// \throws InvalidInput if `remap` is of order 1, or `covered` has another length
   RONDEL_API explicit SecondOrderRemap(Remap remap, std::vector<std::int32_t> covered = {},
-                                       bool is_limited = false);
+                                       RemapLimiter limiter = RemapLimiter::none);
 
   /// Fields follow each other in both arrays. Weights are computed again where a field lacks values in
   /// other sources than the one before it, also that of the call before.
@@ -170,6 +192,8 @@ class SecondOrderRemap {
                    const Execution& execution);
   void apply_fields(std::span<const double> in, std::span<double> out, const ApplyOptions& rules,
                     const Execution& execution) const;
+  void apply_slopes(std::span<const double> field, std::span<double> out, const ApplyOptions& rules,
+                    const Execution& execution) const;
 
   Remap remap_;    // its weights are those for has_value_
   Weights whole_;  // those for fields without gaps, while others are in use
@@ -177,7 +201,8 @@ class SecondOrderRemap {
   std::vector<std::int32_t> has_value_;
   double max_missing_ = 0;  // of those weights
   bool is_whole_ = true;    // whether all sources have values, instead
-  bool is_limited_;
+  RemapLimiter limiter_;
+  std::shared_ptr<const overlay::SlopeLimiter> slopes_;  // that for has_value_
 };
 
 /// Computes the target means of order 2 with given gradients, for which linear fields are

@@ -102,7 +102,7 @@ void require_effects(const RegridFileOptions& options, const FileName& target,
           "invalid has no effect with a method between places");
   require(options.method != FieldMethod::largest_share || !has_norm,
           "norm has no effect with the method largest_share");
-  require(options.method == FieldMethod::conservative_2nd || !options.is_limited,
+  require(options.method == FieldMethod::conservative_2nd || options.limiter == RemapLimiter::none,
           "the limiter has no effect without the method conservative_2nd");
   const bool has_polygons =
       can_read_polygons(target) || (options.source && can_read_polygons(*options.source));
@@ -324,6 +324,13 @@ class RegridJob {
     }
   }
 
+  [[nodiscard]] bool is_limited() const { return options_.limiter != RemapLimiter::none; }
+  // Returns why weights that are limited have no tiles.
+  [[nodiscard]] const char* of_limiter() const {
+    return options_.limiter == RemapLimiter::slopes ? "slopes are limited field by field"
+                                                    : "the limiter needs the values of all targets";
+  }
+
   // Decides what is in memory at a time. All methods of a file have weights of one kind.
   void make_plan() {
     formats::RegridTask task;
@@ -343,7 +350,7 @@ class RegridJob {
     task.num_processes = ranks_.size;
     const bool is_second = options_.method == FieldMethod::conservative_2nd;
     if (needs_cells_) {
-      task.has_tiles = !(is_second && (options_.is_limited || source_.num_stored() > 0)) &&
+      task.has_tiles = !(is_second && (is_limited() || source_.num_stored() > 0)) &&
                        source_.has_tiles(execution_) && target_.has_tiles(execution_) &&
                        (source_.is_walked() || target_.is_walked());
       task.are_cells = true;
@@ -366,11 +373,11 @@ class RegridJob {
       plan_.fields_at_once = std::min(plan_.fields_at_once, fields_to_lose);
     }
     if (task.tile > 0 && !plan_.has_tiles) {
-      const std::string why =
-          is_second && options_.is_limited ? "the limiter needs the values of all targets"
-          : is_second ? "weights of order 2 need all cells of a source from a file"
-                      : "cells overlap, or neither side covers the sphere or is "
-                        "between parallels";
+      const std::string why = is_second && is_limited() ? of_limiter()
+                              : is_second
+                                  ? "weights of order 2 need all cells of a source from a file"
+                                  : "cells overlap, or neither side covers the sphere or is "
+                                    "between parallels";
       formats::add_remarks(fields_name_, {"the number of cells of a tile has no effect: " + why},
                            report_.remarks);
     }
@@ -409,7 +416,7 @@ class RegridJob {
     }
     // Any part of a target is enough for a sum.
     second_.emplace(std::move(made), are_sums_ ? std::vector<std::int32_t>() : covered_,
-                    options_.is_limited);
+                    options_.limiter);
     is_second_of_sums_ = are_sums_;
     return {};
   }
@@ -644,7 +651,7 @@ class RegridJob {
     facts.push_back(
         {"method", options_.method ? std::string(name_of(*options_.method)) : "by kind"});
     facts.push_back({"norm", std::string(name_of(options_.norm))});
-    facts.push_back({"limiter", options_.is_limited ? "bounds" : "none"});
+    facts.push_back({"limiter", std::string(name_of(options_.limiter))});
     facts.push_back({"max_missing", system::shortest_text(options_.max_missing)});
     facts.push_back({"overlap", std::string(name_of(options_.overlap))});
     facts.push_back({"sides", std::string(name_of(options_.cells.sides))});

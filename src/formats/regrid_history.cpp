@@ -89,7 +89,9 @@ std::string regrid_command(const std::string& in, const std::string& target,
   line.add_word("--norm", options.norm, usual.norm);
   line.add_number("--max-missing", options.max_missing, usual.max_missing);
   line.add_word("--overlap", options.overlap, usual.overlap);
-  if (options.is_limited) line.add("--limiter", "bounds");
+  if (options.limiter != RemapLimiter::none) {
+    line.add("--limiter", std::string(name_of(options.limiter)));
+  }
   for (const auto& [east, north] : options.vectors) {
     std::string pair = east;
     line.add("--vector", pair.append(",").append(north));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "exact/eft.h"
+#include "overlay/slope_limiter.h"
 #include "rondel/remap.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -19,11 +20,7 @@
 namespace rondel {
 namespace {
 
-// The bounds of the sources of a target. Without sources that have values, low is above high.
-struct ValueBounds {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
+using overlay::ValueBounds;
 
 // Limits one field after another.
 class FieldLimiter {
@@ -85,7 +82,7 @@ class FieldLimiter {
       for (std::uint64_t k = remap_.pieces.offsets[j]; k < remap_.pieces.offsets[j + 1]; ++k) {
         const double value = sources[remap_.pieces.values[k]];
         if (std::isnan(value)) continue;
-        bounds_[j] = {std::min(bounds_[j].low, value), std::max(bounds_[j].high, value)};
+        bounds_[j].include({value, value});
       }
     }
   }
@@ -113,7 +110,7 @@ class FieldLimiter {
 
   const Remap& remap_;
   bool keeps_sums_;
-  std::vector<ValueBounds> bounds_;
+  std::vector<ValueBounds> bounds_;  // of the sources of each target
   std::vector<double> parts_;
 };
 

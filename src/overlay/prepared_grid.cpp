@@ -162,11 +162,16 @@ PreparedGrid::CellSize PreparedGrid::size_of(Index column, Index row) const {
   return {area(column, row), columns_[column].width * cosines + 2 * height};
 }
 
-PreparedGrid::CellSize PreparedGrid::size_of(Index cell) const {
+PreparedGrid::ColumnAndRow PreparedGrid::place_of(Index cell) const {
   const Index lat = cell / num_columns_of_grid_;
   const Index lon = cell % num_columns_of_grid_;
-  return size_of(is_westward_ ? num_columns_of_grid_ - 1 - lon : lon,
-                 first_row_ + (is_southward_ ? num_rows_of_grid_ - 1 - lat : lat));
+  return {is_westward_ ? num_columns_of_grid_ - 1 - lon : lon,
+          first_row_ + (is_southward_ ? num_rows_of_grid_ - 1 - lat : lat)};
+}
+
+PreparedGrid::CellSize PreparedGrid::size_of(Index cell) const {
+  const auto [column, row] = place_of(cell);
+  return size_of(column, row);
 }
 
 std::vector<double> PreparedGrid::lengths() const {

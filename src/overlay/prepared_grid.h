@@ -94,6 +94,12 @@ class PreparedGrid {
   [[nodiscard]] Index first_row() const { return first_row_; }
   // Returns the cell in a column and row, or no_index if it is a filling one.
   [[nodiscard]] Index cell(Index column, Index row) const;
+  struct ColumnAndRow {
+    Index column;
+    Index row;
+  };
+  // Returns where a cell is.
+  [[nodiscard]] ColumnAndRow place_of(Index cell) const;
   // Returns the area of a column in a row, in steradians, also for filling ones.
   [[nodiscard]] double area(Index column, Index row) const {
     return columns_[column].width * heights_[row];

@@ -340,6 +340,10 @@ std::string_view name_of(RemapNorm norm) noexcept {
   return system::name_in({"destarea", "fracarea"}, norm);
 }
 
+std::string_view name_of(RemapLimiter limiter) noexcept {
+  return system::name_in({"none", "bounds", "slopes"}, limiter);
+}
+
 std::string_view name_of(CellOverlap overlap) noexcept {
   return system::name_in({"error", "first", "share", "each"}, overlap);
 }

@@ -7,14 +7,19 @@
 #include <string>
 #include <utility>
 
+#include "exact/vector.h"
+#include "overlay/slope_limiter.h"
 #include "rondel/error.h"
 #include "rondel/remap.h"
 #include "rondel/weights.h"
 #include "system/job.h"
 #include "system/message_text.h"
+#include "system/parallel.h"
 
 namespace rondel {
 namespace {
+
+constexpr std::size_t targets_per_task = 4096;
 
 // Returns for each value of a field whether it is there; nothing if all are.
 std::vector<std::int32_t> values_that_are_there(std::span<const double> field) {
@@ -27,14 +32,24 @@ std::vector<std::int32_t> values_that_are_there(std::span<const double> field) {
 
 }  // namespace
 
-// The weights are those for fields without gaps at first.
-SecondOrderRemap::SecondOrderRemap(Remap remap, std::vector<std::int32_t> covered, bool is_limited)
-    : remap_(std::move(remap)), covered_(std::move(covered)), is_limited_(is_limited) {
+// The weights are those for fields without gaps at first. Slopes have none: of weights only their absence is
+// stored.
+SecondOrderRemap::SecondOrderRemap(Remap remap, std::vector<std::int32_t> covered,
+                                   RemapLimiter limiter)
+    : remap_(std::move(remap)), covered_(std::move(covered)), limiter_(limiter) {
   if (remap_.moments.size() != remap_.areas.size()) {
     throw InvalidInput("the remapping is not of order 2");
   }
   if (covered_.empty()) covered_.assign(remap_.target_areas.size(), 1);
-  remap_.weights = with_rows(remap_.weights, covered_);
+  if (limiter_ != RemapLimiter::slopes) {
+    remap_.weights = with_rows(remap_.weights, covered_);
+    return;
+  }
+  if (covered_.size() != remap_.target_areas.size()) {
+    throw InvalidInput("there are " + std::to_string(covered_.size()) + " numbers for " +
+                       std::to_string(remap_.target_areas.size()) + " targets");
+  }
+  remap_.weights = {};
 }
 
 // Returns for each target whether it is covered, and enough of what covers it has values, by area: weights
@@ -58,17 +73,64 @@ std::vector<std::int32_t> SecondOrderRemap::with_enough(std::span<const std::int
 void SecondOrderRemap::apply_fields(std::span<const double> in, std::span<double> out,
                                     const ApplyOptions& rules, const Execution& execution) const {
   const std::size_t count = in.size() / std::max<std::size_t>(remap_.source_areas.size(), 1);
-  if (is_limited_) {
+  if (limiter_ == RemapLimiter::slopes) {
+    const std::size_t sources = remap_.source_areas.size();
+    const std::size_t targets = remap_.target_areas.size();
+    for (std::size_t f = 0; f < count; ++f) {
+      apply_slopes(in.subspan(f * sources, sources), out.subspan(f * targets, targets), rules,
+                   execution);
+    }
+  } else if (limiter_ == RemapLimiter::bounds) {
     apply_limited(remap_, in, out, count, rules, execution);
   } else {
     rondel::apply(remap_.weights, in, out, count, rules, execution);
   }
 }
 
+// Sums up what the sources give to each target. Rounding does not take a mean beyond its bounds.
+void SecondOrderRemap::apply_slopes(std::span<const double> field, std::span<double> out,
+                                    const ApplyOptions& rules, const Execution& execution) const {
+  const overlay::LimitedSlopes slopes = slopes_->slopes(remap_, field, execution.threads);
+  const auto value_of = [&](std::size_t j) {
+    double sum = 0;
+    double all = 0;
+    double present = 0;
+    overlay::ValueBounds bounds;
+    for (std::uint64_t k = remap_.pieces.offsets[j]; k < remap_.pieces.offsets[j + 1]; ++k) {
+      const Index i = remap_.pieces.values[k];
+      all += remap_.areas[k];
+      if (std::isnan(field[i])) continue;
+      present += remap_.areas[k];
+      sum += remap_.areas[k] * field[i] + dot(remap_.moments[k], slopes.gradients[i]);
+      bounds.include(slopes.bounds[i]);
+    }
+    const bool is_enough = present > 0 && may_be_missing(all - present, all, rules.max_missing);
+    if (covered_[j] == 0 || !is_enough) return rules.fill;
+    // A sum may be beyond the largest number although its mean is not; NaN stays.
+    const double mean = sum / present;
+    const double within =
+        bounds.low <= bounds.high ? std::clamp(mean, bounds.low, bounds.high) : mean;
+    const double part = rules.keeps_sums && present < all ? present / all : 1;
+    return within * (remap_.norm == RemapNorm::fracarea ? part : part * remap_.target_fractions[j]);
+  };
+  system::parallel_for(execution.threads, out.size(), targets_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t j = begin; j < end; ++j) out[j] = value_of(j);
+                       });
+}
+
 // Computes the weights of fields with these values, unless they are in use. Those in use are dropped before; if
 // that ends early, none are in use.
 void SecondOrderRemap::use_weights(std::vector<std::int32_t> has_value, double max_missing,
                                    const Execution& execution) {
+  if (limiter_ == RemapLimiter::slopes) {
+    // How much is missing does not change slopes.
+    if (slopes_ != nullptr && has_value == has_value_) return;
+    slopes_.reset();
+    slopes_ = std::make_shared<overlay::SlopeLimiter>(remap_, has_value, execution.threads);
+    has_value_ = std::move(has_value);
+    return;
+  }
   const bool are_in_use =
       has_value.empty() ? is_whole_ : has_value == has_value_ && max_missing == max_missing_;
   if (are_in_use) return;
@@ -106,7 +168,8 @@ void SecondOrderRemap::apply(std::span<const double> in, std::span<double> out,
                        ", not in [0, 1]");
   }
   ApplyOptions of_rows = rules;
-  of_rows.max_missing = 1;  // rows of which too much is missing have no entries
+  // Rows of weights of which too much is missing have no entries.
+  if (limiter_ != RemapLimiter::slopes) of_rows.max_missing = 1;
   // Fields that lack values in the same sources are carried together.
   while (!in.empty()) {
     std::vector<std::int32_t> has_value = values_that_are_there(in.first(sources));

@@ -155,6 +155,7 @@ class Carried(ToolInFolder):
             ("O8", "--norm", "destarea"),
             ("O8", "--method", "conservative-2nd"),
             ("O8", "--method", "conservative-2nd", "--limiter", "bounds"),
+            ("O8", "--method", "conservative-2nd", "--limiter", "slopes"),
             ("healpix:2", "--method", "bilinear"),
             ("healpix:2", "--method", "linear", "--tile", "50"),
             ("grid:30", "--extrapolate", "creep"),
@@ -187,7 +188,7 @@ class Carried(ToolInFolder):
                 add(file, name, (name,), values, units=units)
             add(file, "t", ("lat", "lon"), field[rows, columns])
         for target in ("grid:15x7", "healpix:2"):
-            for more in ((), ("--max-missing", "1"), ("--limiter", "bounds")):
+            for more in ((), ("--max-missing", "1"), ("--limiter", "bounds"), ("--limiter", "slopes")):
                 options = (target, "--method", "conservative-2nd", *more)
                 self.run_tool("regrid", "in.nc", *options, "-o", "out.nc")
                 self.run_tool("regrid", "part.nc", *options, "-o", "wanted.nc")

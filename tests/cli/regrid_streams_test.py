@@ -341,7 +341,7 @@ class RegridStreams(unittest.TestCase):
     def test_options_without_effect_are_told(self):
         self.expect_refusal([self.input, "healpix:3", "-o", "out.nc", "--method", "conservative-2nd", "--limiter",
                              "bounds", "--tile", "9"],
-                            "--tile has no effect with --limiter bounds, which needs the values of all targets.*", status=2)
+                            "--tile has no effect with --limiter, which needs whole fields.*", status=2)
         self.expect_refusal([self.input, "healpix:3", "-o", "out.nc", "--method", "largest-share", "--norm", "destarea"],
                             "--norm has no effect with --method largest-share, which compares the parts of a target.*",
                             status=2)

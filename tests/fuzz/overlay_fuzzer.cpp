@@ -82,6 +82,10 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   for (const double value : out) {
     require(std::isnan(value) || (value >= 0 && value <= 1), "limited values are within bounds");
   }
+  SecondOrderRemap(second, {}, RemapLimiter::slopes).apply(marks, out);
+  for (const double value : out) {
+    require(std::isnan(value) || (value >= 0 && value <= 1), "slopes reach no new extremes");
+  }
   std::vector<std::int32_t> has_value(source.num_cells(), 1);
   for (std::size_t i = 0; i < has_value.size(); i += 3) has_value[i] = 0;
   std::vector<double> with_gaps(source.num_cells(), 2);
@@ -96,6 +100,10 @@ void test_diagrams(const CellSet& source, const CellSet& target) {
   SecondOrderRemap(second).apply(with_gaps, of_gaps, {.max_missing = 1});
   for (std::size_t j = 0; j < out.size(); ++j) {
     require(std::isnan(out[j]) || of_gaps[j] == out[j], "these weights are applied");
+  }
+  SecondOrderRemap(second, {}, RemapLimiter::slopes).apply(with_gaps, of_gaps, {.max_missing = 1});
+  for (std::size_t j = 0; j < out.size(); ++j) {
+    require(std::isnan(out[j]) || of_gaps[j] == 2, "slopes of constants are none");
   }
   const Remap same = remap(source, source, covered);
   for (std::size_t j = 0; j < source.num_cells(); ++j) {

@@ -84,6 +84,7 @@ class Regrid(unittest.TestCase):
             ("out.nc", ["healpix:4", "--method", "sibson"]),
             ("out.nc", ["healpix:4", "--method", "largest-share", "--value", "c"]),
             ("out.nc", ["O16", "--method", "conservative-2nd", "--limiter", "bounds", "--vector", "a,b"]),
+            ("out.nc", ["O16", "--method", "conservative-2nd", "--limiter", "slopes"]),
             ("out.nc", ["healpix:4", "--vector", "a,b", "--vector", "c,d", "--tile", "500"]),
             ("out.nc", ["healpix:4", "--method", "linear", "--vector", "e,b", "--kind", "cdf5"]),
             ("out.csv", [self.regions, "--edges", "geodesic", "--invalid", "repair", "--overlap", "each"]),

@@ -31,6 +31,7 @@ rondel_add_test(overlay_test
   overlay/repaired_cells_test.cpp
   overlay/rings_test.cpp
   overlay/shapes.cpp
+  overlay/slopes_test.cpp
   overlay/snaps_test.cpp
   overlay/straight_test.cpp
   overlay/subdivision_test.cpp

@@ -71,7 +71,7 @@ void add_regrid_files(nb::module_& module) {
          const std::optional<std::string>& extrapolate, std::optional<double> max_distance_km,
          unsigned num_sources, unsigned exponent, unsigned levels,
          const std::vector<std::pair<std::string, std::string>>& vectors, bool resume,
-         bool is_limited) {
+         nb::handle limiter) {
         RegridFileOptions options;
         options.names = names;
         if (source) options.source = FileName{*source, {}};
@@ -96,7 +96,7 @@ void add_regrid_files(nb::module_& module) {
         options.netcdf.deflate = deflate;
         options.history = history;
         options.resume = resume;
-        options.is_limited = is_limited;
+        options.limiter = named<RemapLimiter>("limiter", limiter);
         if (!statistics.empty()) options.statistics = zonal_statistics_of(statistics);
         options.statistic_weights = named<ZonalWeights>("weigh_by", weigh_by);
         return options;
@@ -107,7 +107,7 @@ void add_regrid_files(nb::module_& module) {
       nb::arg("deflate"), nb::arg("history"), nb::arg("statistics"), nb::arg("weigh_by").none(),
       nb::arg("corners").none(), nb::arg("extrapolate").none(), nb::arg("max_distance_km").none(),
       nb::arg("num_sources"), nb::arg("exponent"), nb::arg("levels"), nb::arg("vectors"),
-      nb::arg("resume"), nb::arg("is_limited"));
+      nb::arg("resume"), nb::arg("limiter").none());
   add_call(module);
 }
 

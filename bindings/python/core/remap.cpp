@@ -42,8 +42,10 @@ Remap remap_of(const CellSet& source, const CellSet& target, unsigned order, nb:
 // last field.
 class SharedSecondOrder {
  public:
-  SharedSecondOrder(const Remap& remap, const Weights& weights, const IndicesIn& covered)
-      : second_(with_weights(remap, weights), vector_of<std::int32_t>(covered)) {}
+  SharedSecondOrder(const Remap& remap, const Weights& weights, const IndicesIn& covered,
+                    nb::handle limiter)
+      : second_(with_weights(remap, weights), vector_of<std::int32_t>(covered),
+                named<RemapLimiter>("limiter", limiter)) {}
 
   void apply(std::span<const double> in, std::span<double> out, const ApplyOptions& rules,
              const Execution& execution) {
@@ -97,8 +99,8 @@ void add_remap(nb::module_& module) {
   add_array<double, &Remap::moments>(type, "moments");
   add_array<double, &Remap::source_centers>(type, "source_centers");
   nb::class_<SharedSecondOrder>(module, "SecondOrderRemap")
-      .def(nb::init<const Remap&, const Weights&, const IndicesIn&>(), nb::arg("remap"),
-           nb::arg("weights"), nb::arg("covered").noconvert())
+      .def(nb::init<const Remap&, const Weights&, const IndicesIn&, nb::handle>(), nb::arg("remap"),
+           nb::arg("weights"), nb::arg("covered").noconvert(), nb::arg("limiter"))
       .def("apply", &apply_second, nb::arg("fields").noconvert(), nb::arg("num_targets"),
            nb::arg("fill"), nb::arg("max_missing"), nb::arg("threads"),
            nb::arg("keeps_sums") = false);

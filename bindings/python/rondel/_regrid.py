@@ -13,6 +13,7 @@ from ._geometries import Corners
 from ._native import Extrapolation
 from ._regrid_files import FieldMethod, as_method
 from ._regridder import Regridder, RegridMethod
+from ._remap import SlopeLimiter
 from ._types import Progress
 from ._weights import require_share
 
@@ -55,6 +56,7 @@ def regrid(
     extrap_method: Extrapolation | None = None,
     extrap_distance: float | None = None,
     corners: Corners = "error",
+    limiter: SlopeLimiter = "none",
     vectors: Iterable[tuple[str, str]] = (),
     threads: int | None = None,
     progress: Progress = None,
@@ -96,6 +98,9 @@ def regrid(
     extrap_method, extrap_distance, corners : optional
         As in `Regridder`: values for targets to which no source contributes, and corners of cells
         where the coordinates have no bounds.
+    limiter : {'none', 'slopes'}, optional
+        What limits 'conservative_2nd', as in `Regridder`: with 'slopes' no value is beyond those of
+        the sources around.
     vectors : iterable of (str, str), optional
         Pairs of variables that are the eastward and northward components of vectors, such as winds,
         as in a call of a `Regridder`.
@@ -148,6 +153,7 @@ def regrid(
         extrap_method=extrap_method,
         extrap_distance=extrap_distance,
         corners=corners,
+        limiter=limiter,
         max_uncovered=max_missing if is_of_cells or method == "largest_share" else 1.0,
         threads=threads,
         progress=progress,

@@ -13,7 +13,7 @@ from ._arrays import as_bytes, as_count, as_name, as_number, as_text, as_threads
 from ._geo import Path
 from ._geometries import Corners, Edges, Invalid, Sides
 from ._native import Extrapolation, require_limits
-from ._remap import CellOverlap
+from ._remap import CellOverlap, RemapLimiter
 from ._types import Progress
 
 FieldMethod: TypeAlias = Literal[
@@ -73,7 +73,7 @@ def regrid_file(
     source: Path | None = None,
     method: FieldMethod | None = None,
     norm: Literal["destarea", "fracarea"] = "fracarea",
-    limiter: Literal["none", "bounds"] = "none",
+    limiter: RemapLimiter = "none",
     max_missing: float = 0.5,
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
@@ -126,9 +126,11 @@ def regrid_file(
     norm : {'fracarea', 'destarea'}, optional
         What conservative sums are divided by: the part that sources cover, so that constants are
         kept (default), or the target's area, so that integrals are.
-    limiter : {'none', 'bounds'}, optional
+    limiter : {'none', 'bounds', 'slopes'}, optional
         With 'bounds' no value of 'conservative_2nd' is beyond those of its sources, and the
-        integral is kept. It needs the weights of all targets at a time.
+        integral is kept. With 'slopes' the gradient in a source leads to no value beyond those of
+        this source and of the sources around it, and each source keeps its integral (Barth and
+        Jespersen 1989). Both need the weights of all targets at a time.
     max_missing : float, optional
         The share of a target that no source may cover, and of its covered part in which values
         may be missing, from 0 to 1; by default 0.5. A target at the limit, up to 1e-9, has a value.
@@ -256,7 +258,7 @@ def as_options(
     source: Path | None = None,
     method: FieldMethod | None = None,
     norm: Literal["destarea", "fracarea"] = "fracarea",
-    limiter: Literal["none", "bounds"] = "none",
+    limiter: RemapLimiter = "none",
     max_missing: float = 0.5,
     sides: Sides = "parallels",
     edges: Edges = "lonlat",
@@ -278,8 +280,6 @@ def as_options(
     resume: bool = False,
 ) -> _core.RegridFileOptions:
     """The options of `regrid_file`, as the library has them."""
-    if limiter not in ("none", "bounds"):
-        raise ValueError(f"limiter must be 'none' or 'bounds', not {limiter!r}")
     require_limits(
         extrapolate,
         "extrapolate",
@@ -316,7 +316,7 @@ def as_options(
         as_count(extrapolate_levels, "extrapolate_levels"),
         _as_pairs(vectors),
         bool(resume),
-        limiter == "bounds",
+        limiter,
     )
 
 

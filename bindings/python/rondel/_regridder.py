@@ -25,7 +25,7 @@ from ._native import (
     limits_of_xesmf,
     require_limits,
 )
-from ._remap import CellOverlap, Remap, remapped
+from ._remap import CellOverlap, Remap, SlopeLimiter, remapped
 from ._repr import Described, count
 from ._reuse import reused, said_method
 from ._second_order import SecondOrderWeights
@@ -134,6 +134,13 @@ class Regridder(Described):
     invalid : {'error', 'repair'}, optional
         What conservative methods do if a cell crosses or overlaps itself: 'error' (default) raises
         `InvalidInput`, 'repair' replaces it as `CellSet.repaired` does.
+    limiter : {'none', 'slopes'}, optional
+        With 'slopes' the gradients of 'conservative_2nd' and 'conservative_2nd_normed' are limited
+        in each field: no value is beyond those of the sources of a target and of the sources around
+        them, and each source keeps its integral (monotone slopes: Barth and Jespersen 1989). Values
+        are then no weighted sums, so `weights` are those without a limiter; it is refused beside
+        weights that are given, and beside 'creep_fill'. 'bounds' of `regrid_file` needs all targets
+        at a time, and is not one of these.
     filename : path-like, optional
         The file that `to_netcdf` writes and `reuse_weights` reads, as in xESMF.
     reuse_weights : bool, optional
@@ -208,6 +215,7 @@ class Regridder(Described):
         weights: Path | Weights | None = None,
         overlap: CellOverlap = "error",
         invalid: Invalid = "error",
+        limiter: SlopeLimiter = "none",
         filename: Path | None = None,
         reuse_weights: bool = False,
         threads: int | None = None,
@@ -253,6 +261,16 @@ class Regridder(Described):
                 if method in _CONSERVATIVE
                 else f"max_uncovered has no effect with the method {method!r}"
             )
+        if limiter not in ("none", "slopes"):
+            raise ValueError(f"limiter must be 'none' or 'slopes', not {limiter!r}")
+        if limiter != "none":
+            is_second = method in _CONSERVATIVE and _CONSERVATIVE[method][0] == 2
+            if not is_second:
+                raise ValueError(f"limiter has no effect with the method {method!r}")
+            if weights is not None:
+                raise ValueError("limiter has no effect on given weights")
+            if extrap_method in ("creep", "creep_fill"):
+                raise ValueError("creep_fill has weights of neighbors, which no limiter changes")
         of_cells = {"overlap": overlap, "invalid": invalid, "corners": corners}
         for name, rule in of_cells.items():
             if method not in _CONSERVATIVE and rule != "error":
@@ -313,7 +331,7 @@ class Regridder(Described):
         self.weights = made
         # Each field of order 2 is applied by the weights that its missing values need.
         self._applied: AnyWeights = (
-            made if second is None else SecondOrderWeights.of(*second[:2], made, second[2])
+            made if second is None else SecondOrderWeights.of(*second[:2], made, second[2], limiter)
         )
         self._sums: WeightsOfSums | None = None  # what keeps sums over cells, if it is wanted
         if weights is None and isinstance(found, Remap) and pieces is not None:

@@ -23,6 +23,9 @@ from ._weight_files import netcdf_name
 from ._weights import Weights
 
 CellOverlap: TypeAlias = Literal["error", "first", "share", "each"]
+RemapLimiter: TypeAlias = Literal["none", "bounds", "slopes"]
+# That of weights which may be applied to some targets at a time.
+SlopeLimiter: TypeAlias = Literal["none", "slopes"]
 
 
 class Remap(Described):

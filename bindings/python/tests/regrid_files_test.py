@@ -398,7 +398,7 @@ def test_a_text_that_packs_numbers_is_not_applied_twice(made, tmp_path):
             assert "scale_factor" not in {**found.warm.attrs, **found.warm.encoding}
 
 
-@pytest.mark.parametrize("more", [{}, {"tile": 40}, {"limiter": "bounds"}])
+@pytest.mark.parametrize("more", [{}, {"tile": 40}, {"limiter": "bounds"}, {"limiter": "slopes"}])
 @pytest.mark.parametrize("max_missing", [0.0, 0.3, 0.5, 1.0])
 def test_targets_are_missing_by_area_with_gradients_as_well(made, tmp_path, more, max_missing):
     _, data = made
@@ -425,7 +425,7 @@ def test_the_limiter_keeps_constants_and_integrals_where_values_are_missing(made
     data["seven"] = (("lat", "lon"), values)
     data[["seven"]].to_netcdf(tmp_path / "in.nc")
     found = {}
-    for limiter in ("none", "bounds"):
+    for limiter in ("none", "bounds", "slopes"):
         out = tmp_path / f"{limiter}.nc"
         rondel.regrid_file(
             tmp_path / "in.nc",
@@ -442,8 +442,12 @@ def test_the_limiter_keeps_constants_and_integrals_where_values_are_missing(made
     if norm == "destarea":
         areas = rondel.CellSet.named("grid:20").areas.reshape(9, 18)
         wanted = np.nansum(values.ravel() * rondel.CellSet.named("grid:10").areas)
-        assert abs(np.nansum(found["bounds"] * areas) - wanted) < 1e-12 * wanted
-    with pytest.raises(ValueError, match="limiter must be 'none' or 'bounds', not 'both'"):
+        for limiter in ("bounds", "slopes"):
+            assert abs(np.nansum(found[limiter] * areas) - wanted) < 1e-12 * wanted
+    else:
+        assert set(found["slopes"][~np.isnan(found["slopes"])]) == {7.0}
+    words = "'none', 'bounds', 'slopes'"
+    with pytest.raises(ValueError, match=f"limiter must be one of {words}, not 'both'"):
         rondel.regrid_file(tmp_path / "in.nc", "grid:20", tmp_path / "o.nc", limiter="both")
 
 

@@ -170,7 +170,7 @@ TEST(regrid_files, a_command_says_what_changes_values) {
   RegridFileOptions options{.names = {"t", "tas[3]"}, .method = FieldMethod::conservative_2nd};
   options.source = FileName{"a b.nc", {}};
   options.norm = RemapNorm::destarea;
-  options.is_limited = true;
+  options.limiter = RemapLimiter::bounds;
   options.max_missing = 0.25;
   options.overlap = CellOverlap::first;
   options.vectors = {{"u", "v"}};

@@ -187,8 +187,9 @@ TEST(regrid_streams, weights_without_tiles_need_their_memory) {
   const std::string in = temporary_path("streams.nc");
   const std::string out = temporary_path("second.nc");
   write_fields_on(in, "grid:4");
-  const RegridFileOptions second{
-      .method = FieldMethod::conservative_2nd, .is_limited = true, .memory = 1U << 20U};
+  const RegridFileOptions second{.method = FieldMethod::conservative_2nd,
+                                 .limiter = RemapLimiter::bounds,
+                                 .memory = 1U << 20U};
   const std::string refusal = why_not(in, "healpix:4", out, second);
   EXPECT_EQ(refusal,
             "memory of 1048576 bytes is too small: " + std::to_string(enough_of(refusal) >> 20U) +
@@ -196,7 +197,7 @@ TEST(regrid_streams, weights_without_tiles_need_their_memory) {
   EXPECT_FALSE(std::filesystem::exists(out));
   const auto report = run(in, "healpix:4", out,
                           {.method = FieldMethod::conservative_2nd,
-                           .is_limited = true,
+                           .limiter = RemapLimiter::bounds,
                            .memory = enough_of(refusal),
                            .cells_per_tile = 100});
   EXPECT_EQ(report.tiles, 0U);
