@@ -119,7 +119,9 @@ class RONDEL_API CellSet {
                       const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;
-  /// Returns the area of each cell in steradians, computed from its corners.
+  /// Returns the area of each cell in steradians, computed from its corners, or that which it has by
+  /// definition: of pixels of HEALPix with GridSides::parallels, 4 pi divided by their number. Rounding of
+  /// corners makes the areas of polygons uncertain by about 2^-52 times the length of their border.
   /// \throws InvalidInput with the first cell that crosses or overlaps itself
   [[nodiscard]] std::span<const double> areas() const;
   /// Returns the direction of the center of mass of each cell from the center of the sphere; (0, 0,

@@ -221,12 +221,11 @@ const LonLatGrid* RegridSide::lines_between() const {
   return lines_ ? &*lines_ : named_->lines();
 }
 
-// Cells that a formula has are made a part at a time, so that they need not be in memory together.
+// These are the areas of the overlay, so that sums are kept. Cells that a formula has are made a part at a time, so that they need not be in memory together.
 std::vector<double> RegridSide::areas(const Execution& execution) {
   constexpr std::size_t of_part = std::size_t{1} << 18U;
   if (num_stored() > 0 || cells_ || num_places() <= of_part) {
-    const std::span<const double> found = cells(execution).areas();
-    return {found.begin(), found.end()};
+    return overlay::CellSetData::of(cells(execution)).areas();
   }
   std::vector<double> areas;
   areas.reserve(num_places());
@@ -235,7 +234,8 @@ std::vector<double> RegridSide::areas(const Execution& execution) {
     numbers.resize(std::min(of_part, num_places() - first));
     std::iota(numbers.begin(), numbers.end(), static_cast<Index>(first));
     const CellSet part = named_->cells(numbers, execution);
-    areas.insert(areas.end(), part.areas().begin(), part.areas().end());
+    const std::vector<double>& of_part_of_cells = overlay::CellSetData::of(part).areas();
+    areas.insert(areas.end(), of_part_of_cells.begin(), of_part_of_cells.end());
   }
   return areas;
 }

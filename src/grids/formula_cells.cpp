@@ -78,7 +78,7 @@ CellSet cells_of(const GridFormula& grid, std::span<const Index> cells,
     for (const Index cell : cells) sides.append((*stored)[cell]);
   }
   return overlay::CellSetData::of_apart(rings_of(grid, cells, execution.threads), execution,
-                                        std::move(sides));
+                                        std::move(sides), grid.equal_area());
 }
 
 }  // namespace rondel::grids

@@ -41,6 +41,8 @@ class GridFormula {
   [[nodiscard]] virtual const CompressedRows<LonLatSide>* stored_sides() const { return nullptr; }
   // Returns the area of a stored cell in steradians, and otherwise 0.
   [[nodiscard]] virtual double area(Index /*cell*/) const { return 0; }
+  // Returns the area that each cell has by definition, in steradians, or 0 if there is no such area.
+  [[nodiscard]] virtual double equal_area() const { return 0; }
   // False if the cells leave a part of the sphere out.
   [[nodiscard]] virtual bool covers_sphere() const { return true; }
   // Returns the lengths of the dimensions of an array of the cells; the last one varies fastest.

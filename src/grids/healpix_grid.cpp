@@ -74,6 +74,10 @@ class HealpixGrid : public GridFormula {
 
   [[nodiscard]] Index num_cells() const override { return static_cast<Index>(12 * side_ * side_); }
 
+  [[nodiscard]] double equal_area() const override {
+    return steps_ > 1 ? 4 * std::numbers::pi / static_cast<double>(12 * side_ * side_) : 0;
+  }
+
   [[nodiscard]] LonLat center(Index cell) const override {
     const auto [ring, position] = is_in_rings_ ? ring_of(cell) : ring_of(pixel_of(cell));
     const mesh::PointRing row =

@@ -176,6 +176,21 @@ WeightSide weight_side(const CellSet& cells) {
   return side;
 }
 
+namespace {
+
+// Returns the areas of a side for a file: where those by definition are not these because of rounding alone,
+// they are told.
+std::vector<double> told_areas(const CellSet& cells, std::vector<double> areas) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double>& defined = overlay::CellSetData::of(cells).defined_areas();
+  for (std::size_t i = 0; i < std::min(areas.size(), defined.size()); ++i) {
+    if (std::abs(areas[i] - defined[i]) <= rounding * defined[i]) areas[i] = defined[i];
+  }
+  return areas;
+}
+
+}  // namespace
+
 WeightFile weight_file(Remap remap) {
   WeightFile file;
   file.source = weight_side(remap.source);
@@ -184,8 +199,8 @@ WeightFile weight_file(Remap remap) {
   if (remap.order == 2) file.method += ", second order";
   file.normalization = name_of(remap.norm);
   file.weights = std::move(remap.weights);
-  file.source.areas = std::move(remap.source_areas);
-  file.target.areas = std::move(remap.target_areas);
+  file.source.areas = told_areas(remap.source, std::move(remap.source_areas));
+  file.target.areas = told_areas(remap.target, std::move(remap.target_areas));
   file.source.fractions = std::move(remap.source_fractions);
   file.target.fractions = std::move(remap.target_fractions);
   return file;

@@ -416,7 +416,7 @@ CellSet CellSet::lonlat_grid(const GlobalGrid& grid, GridSides sides, const Exec
 std::size_t CellSet::num_cells() const { return data_->areas().size(); }
 std::span<const double> CellSet::areas() const {
   data_->require_simple_cells();
-  return data_->areas();
+  return data_->defined_areas().empty() ? data_->areas() : data_->defined_areas();
 }
 std::vector<Point> CellSet::centers() const {
   data_->require_simple_cells();

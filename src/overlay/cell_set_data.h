@@ -37,12 +37,14 @@ class CellSetData {
 
   [[nodiscard]] static const CellSetData& of(const CellSet& cells) { return *cells.data_; }
   // Returns cells that are known not to overlap each other or themselves, as they are, with their
-  // straight sides if these are known.
+  // straight sides if these are known, and the area that each of them has by definition unless it is 0.
   [[nodiscard]] static CellSet of_apart(const CellRings& cells, const Execution& execution,
-                                        CompressedRows<LonLatSide> sides = {}) {
+                                        CompressedRows<LonLatSide> sides = {},
+                                        double equal_area = 0) {
     const auto data = std::make_shared<CellSetData>(Subdivision(cells, false, execution.threads),
                                                     cells.whole, execution.threads, true);
     data->keep_straight_sides(std::move(sides), execution.threads);
+    if (equal_area > 0) data->defined_areas_.assign(data->areas_.size(), equal_area);
     return CellSet(data);
   }
 
@@ -88,6 +90,9 @@ class CellSetData {
   [[nodiscard]] const std::vector<double>& areas(Borders borders = Borders::arcs) const {
     return borders == Borders::straight && straight_sides_ ? straight_sides_->areas() : areas_;
   }
+  // Returns the areas that cells have by definition, from which areas() differ by rounding of corners; empty
+  // if there are none. Pieces add up to areas().
+  [[nodiscard]] const std::vector<double>& defined_areas() const { return defined_areas_; }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
   // Returns the first moments between some borders.
   [[nodiscard]] std::vector<Point> moments(Borders borders) const;
@@ -112,6 +117,7 @@ class CellSetData {
   mutable std::once_flag is_crossing_known_;
   mutable std::vector<CrossingCells> crossing_;
   std::vector<double> areas_;
+  std::vector<double> defined_areas_;  // empty if cells have no areas by definition
   std::vector<Point> moments_;
   std::vector<double> lengths_;
 };

@@ -92,7 +92,7 @@ class CellSet(Described):
         made = with_arrays(_core.CellFacts(self._cells.facts), facts)
         return self._of(self._cells.with_facts(made), self._origin)
 
-    # Cells of a triangulation or a grid are made again, so that they are the same bit by bit.
+    # Cells of a triangulation, a grid or pixels are made again, so that they are the same bit by bit.
     def __getstate__(self) -> dict[str, Any]:
         made: tuple[Any, ...]
         lines = self._cells.lines()
@@ -109,9 +109,11 @@ class CellSet(Described):
     def __setstate__(self, state: dict[str, Any]) -> None:
         name, *given = state["made"]
         is_of_sites = name in ("voronoi", "triangles")
-        self._origin = (name, given[0]) if is_of_sites else None
+        self._origin = (name, given[0]) if is_of_sites or name == "named" else None
         if is_of_sites:
             given = [given[0]._triangulation]
+        elif name == "named":
+            given = [*given[0]]
         elif name in ("polygons", "straight_polygons"):
             given[0] = with_arrays(_core.CellRings(), given[0])
         cells = getattr(_core.CellSet, name)(*given, 0)
@@ -254,7 +256,10 @@ class CellSet(Described):
 
         """
         _refuse_file(name)
-        return cls._of(_core.CellSet.named(name, sides, as_threads(threads)))
+        made = _core.CellSet.named(name, sides, as_threads(threads))
+        # Pixels of HEALPix have areas by definition, which their corners do not say.
+        are_pixels = name.lower().startswith("healpix:")
+        return cls._of(made, ("named", (name, sides)) if are_pixels else None)
 
     @classmethod
     def _some(cls, name: str, numbers: IntArray) -> CellSet:

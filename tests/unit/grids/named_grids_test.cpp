@@ -23,6 +23,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/point_sets.h"
 #include "rondel/predicates.h"
+#include "rondel/remap.h"
 #include "support/generators.h"
 #include "support/thrown.h"
 
@@ -104,7 +105,14 @@ TEST(named_grids, pixels_have_equal_areas) {
     const double wanted = sphere_area / static_cast<double>(grid.num_cells());
     double worst = 0;
     for (const double area : cells.areas()) worst = std::max(worst, std::abs(area / wanted - 1));
+    EXPECT_LT(worst, 4 * 2.3e-16) << order;
+    // Polygons of their corners, without what is known of the areas, have them but for rounding of corners.
+    worst = 0;
+    const CellSet polygons = CellSet::polygons(cells.rings());
+    for (const double area : polygons.areas()) worst = std::max(worst, std::abs(area / wanted - 1));
     EXPECT_LT(worst, 1e-13 * static_cast<double>(1U << order) + 1e-12) << order;
+    const WeightFile file = weight_file(remap(NamedGrid("grid:20").cells(), cells, {.order = 1}));
+    for (const double area : file.target.areas) EXPECT_LT(std::abs(area / wanted - 1), 4 * 2.3e-16);
   }
 }
 
