@@ -92,7 +92,7 @@ class CellSet(Described):
         made = with_arrays(_core.CellFacts(self._cells.facts), facts)
         return self._of(self._cells.with_facts(made), self._origin)
 
-    # Cells of a triangulation, a grid or pixels are made again, so that they are the same bit by bit.
+    # Cells of sites, a grid or pixels are made again, so that they are the same bit by bit.
     def __getstate__(self) -> dict[str, Any]:
         made: tuple[Any, ...]
         lines = self._cells.lines()
