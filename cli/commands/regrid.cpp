@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel regrid: all fields of a file at the places or cells of another grid.
-// in    netCDF with fields; a target: a named grid, netCDF with cells, or polygons
+// in    netCDF with fields; a target: a named grid, netCDF with cells or places, polygons, or points
 // out   the same fields at the target
 // index places and cells in the order of their file or grid
 #include <CLI/CLI.hpp>
@@ -204,10 +204,15 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
   const CLI::Option* const invalid =
       add_invalid_option(parser, cells.invalid, "cells and polygons");
   const CLI::Option* const corners = add_corners_option(parser, cells.corners);
+  const auto is_of_cells = [&options] {
+    const auto& method = options.regrid.method;
+    return !method || *method <= FieldMethod::largest_share;
+  };
   const auto has_polygons = [&options] {
     return can_read_polygons(options.target) || can_read_polygons(options.source);
   };
   require_effect(options.common, edges, has_polygons, "without polygons");
+  require_effect(options.common, edges, is_of_cells, "with a method between places");
   require_effect(
       options.common, invalid,
       [&options] {
@@ -216,13 +221,7 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
       },
       "between grids with names, whose cells are valid");
   for (const CLI::Option* const option : {sides, invalid, corners}) {
-    require_effect(
-        options.common, option,
-        [&options] {
-          const auto& method = options.regrid.method;
-          return !method || *method <= FieldMethod::largest_share;
-        },
-        "with a method between places");
+    require_effect(options.common, option, is_of_cells, "with a method between places");
   }
 }
 
@@ -266,8 +265,9 @@ Command add_regrid_command(CLI::App& tool) {
   parser
       ->add_option(
           "TARGET", options->target,
-          "The name of a grid (below), netCDF with cells, or polygons: .geojson, and with GDAL\n"
-          "installed .gpkg .fgb .shp .parquet")
+          "The name of a grid (below), netCDF with cells or places, polygons: .geojson, and with\n"
+          "GDAL installed .gpkg .fgb .shp .parquet; or points, for methods between places: these\n"
+          "formats, .csv .tsv .xyz .txt .npy")
       ->required()
       ->type_name("");
   add_output_option(*parser, options->common, "Where to write the fields: .nc .nc4 .csv .tsv .npy")
@@ -302,12 +302,16 @@ Command add_regrid_command(CLI::App& tool) {
       "All times and levels are carried, with attributes, axes, and variables without places. A\n"
       "target is missing if sources cover less than half of it, or less than half of what they\n"
       "cover has values (--max-missing).\n\n"
+      "At points, other columns and properties, and what netCDF says of its places (names of\n"
+      "stations), stand beside the values; netCDF has them along the dimension point, with CF's\n"
+      "featureType.\n\n"
       "Examples:\n"
       "  rondel regrid temperature.nc healpix:4 -o pixels.nc\n"
       "  rondel regrid temperature.nc grid:1 --method linear -o one-degree.nc\n"
       "  rondel regrid temperature.nc countries.geojson --overlap each -o means.csv\n"
       "  rondel regrid temperature.nc countries.geojson --overlap each --statistics mean,max \\\n"
       "      -o extremes.csv\n"
+      "  rondel regrid temperature.nc stations.csv --method linear -o at-stations.nc\n"
       "  rondel regrid ocean.nc grid:1 --extrapolate creep --extrapolate-levels 3 -o filled.nc\n"
       "  rondel regrid winds.nc healpix:6 --vector u10,v10 -o winds-on-pixels.nc\n"
       "  rondel regrid wrf.nc grid:0.1 --corners made -o means.nc");

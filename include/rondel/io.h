@@ -131,6 +131,8 @@ struct Column {
   /// texts, also where they are empty. It is empty if `is_numeric` says it: then an empty cell is
   /// null, and the others are JSON or texts.
   std::vector<bool> is_json = {};
+  /// Attributes of a variable of netCDF that has the cells: long_name, units ...
+  std::vector<std::pair<std::string, std::string>> attributes = {};
 
   /// Returns the text of a cell.
   [[nodiscard]] std::string_view cell(std::size_t row) const {
@@ -147,7 +149,7 @@ struct Column {
   /// are. Files that store doubles have such columns as texts.
   [[nodiscard]] RONDEL_API bool has_wide_integers() const;
   /// Returns a column of this name and kind without cells.
-  [[nodiscard]] Column empty_copy() const { return {name, is_numeric, {}, {}, {}}; }
+  [[nodiscard]] Column empty_copy() const { return {name, is_numeric, {}, {}, {}, attributes}; }
 };
 
 /// Returns names that differ from each other and from those that are taken, as properties, columns

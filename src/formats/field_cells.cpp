@@ -7,20 +7,14 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <filesystem>
+#include <iterator>
 #include <set>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "formats/cf_names.h"
-#include "formats/cf_reader.h"
-#include "formats/field_choice.h"
+#include "formats/described_places.h"
 #include "formats/grid_of_file.h"
-#include "io/bad_value.h"
-#include "io/file_bytes.h"
-#include "io/netcdf_reader.h"
 #include "rondel/cell_set.h"
 #include "rondel/conventions.h"
 #include "rondel/error.h"
@@ -77,54 +71,7 @@ bool describe_grid_of_file(const FileName& file, FieldSet& fields, WeightSide& p
   return true;
 }
 
-// True for a variable that describes the places along a dimension: texts, the axis of the dimension, and
-// what has a role or is listed as a coordinate.
-bool describes_places(const VariableHeader& variable, const std::string& dimension,
-                      const std::set<std::string>& listed) {
-  if (variable.dimensions.empty() || variable.dimensions[0] != dimension) return false;
-  if (!variable.is_number || !variable.text("cf_role").empty()) return true;
-  const bool is_measured =
-      !variable.text("units").empty() || !variable.text("standard_name").empty();
-  return variable.dimensions.size() == 1 &&
-         (listed.contains(variable.name) || (variable.name == dimension && is_measured));
-}
-
-// Returns the names of such variables of a file, with commas between them.
-std::string names_of_descriptions(const io::NetcdfReader& file, const std::string& values) {
-  const std::vector<VariableHeader> headers = headers_of(file);
-  const std::vector<CoordinatePair> pairs = find_coordinates(headers, {{}, {}, values});
-  if (pairs.empty() || headers[pairs[0].lon].dimensions.size() != 1 || pairs[0].are_axes) return {};
-  const CoordinatePair& own = pairs.front();
-  std::set<std::string> listed;
-  for (const VariableHeader& header : headers) {
-    for (std::string& word : words_of(header.text("coordinates"))) listed.insert(std::move(word));
-  }
-  NameList names;
-  for (std::size_t i = 0; i < headers.size(); ++i) {
-    if (i == own.lon || i == own.lat || i == own.lon_bounds || i == own.lat_bounds) continue;
-    if (!describes_places(headers[i], headers[own.lon].dimensions[0], listed)) continue;
-    names.add(headers[i].name);
-  }
-  return names.text();
-}
-
 }  // namespace
-
-std::string remark_on_places(const FileName& target) {
-  const auto [file, variable] = file_and_variable(target);
-  std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(file.path, error);
-  if (NamedGrid::is_name(target.path) || !is_file || !is_netcdf_file(file)) return {};
-  try {
-    io::FileBytes bytes(file, true);
-    const std::string names = names_of_descriptions(io::NetcdfReader(bytes), variable);
-    return names.empty() ? "" : "left out, as they describe the places of the target: " + names;
-  } catch (const io::BadValue&) {
-    return {};  // which is told where the places are read
-  } catch (const InvalidInput&) {
-    return {};
-  }
-}
 
 void add_grid(const NamedGrid& grid, FieldSet& fields) {
   const GridMapping mapping = grid.mapping();
@@ -169,8 +116,9 @@ void find_bounds(const FileName& file, WeightSide& side, const Execution& execut
 
 void describe_cells(const FileName& target, FieldSet& fields, WeightSide& points,
                     const Execution& execution) {
-  const std::string remark = formats::remark_on_places(target);
-  if (!remark.empty()) fields.remarks.push_back(remark);
+  formats::DescribedPlaces described = formats::described_places(target, points.points.size());
+  if (!described.remark.empty()) fields.remarks.push_back(described.remark);
+  std::ranges::move(described.columns, std::back_inserter(points.columns));
   if (NamedGrid::is_name(target.path)) {
     formats::add_grid(NamedGrid(target.path), fields);
   } else if (!formats::is_read_once(target) && can_read_cells(target) &&

@@ -23,9 +23,4 @@ void add_grid(const NamedGrid& grid, FieldSet& fields);
 // these: they may be nodes or edges of a mesh, and the file may have no cells, or none that are valid.
 void find_bounds(const FileName& file, WeightSide& side, const Execution& execution);
 
-// Returns a sentence on what a file of netCDF says of targets that are a list, beside their longitudes
-// and latitudes: names of stations, the times of a track. No field gets it, so that it is told. It is
-// empty for other targets, and for files that have nothing of the kind.
-std::string remark_on_places(const FileName& target);
-
 }  // namespace rondel::formats

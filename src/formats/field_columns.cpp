@@ -88,13 +88,15 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
       longest = std::max(longest, column.cell(i).size());
     }
     lengths_.push_back(longest);
-    if (is_number_.back()) {
-      out.add_variable({name, NetcdfType::float64, {points}, {}});
-    } else {
+    io::NetcdfVariable made = variable(name, NetcdfType::float64, {points});
+    if (!is_number_.back()) {
       const std::size_t length = out.add_dimension(take_name(name + "_length", taken), longest);
-      out.add_variable(
-          variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}}));
+      made = variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}});
     }
+    for (const auto& [attribute, text] : column.attributes) {
+      made.attributes.push_back({attribute, NetcdfType::text, text, {}});
+    }
+    out.add_variable(std::move(made));
   }
 }
 

@@ -40,10 +40,14 @@ class ColumnsOut {
 
   // Returns headers with the names that programs accept for variables, one for each column.
   [[nodiscard]] std::vector<VariableHeader> headers() const;
-  // Defines the variables. Texts become arrays of UTF-8 characters. `points` is the dimension of
+  // Defines the variables, with their attributes. Texts become arrays of UTF-8 characters. `points` is the dimension of
   // the points, `names` the names of the variables, `taken` those of all variables and dimensions.
   void define(io::NetcdfWriter& out, std::size_t points, std::span<const std::string> names,
               std::set<std::string> taken);
+  // True if a column has attributes, as those of netCDF have.
+  [[nodiscard]] bool has_attributes(std::size_t column) const {
+    return !columns_[column].attributes.empty();
+  }
   // Writes the values, after NetcdfWriter::begin().
   void write(io::NetcdfWriter& out) const;
 

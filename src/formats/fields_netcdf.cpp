@@ -233,7 +233,12 @@ class NetcdfSink : public FieldSink {
     }
   }
   void finish() override { out_.finish(); }
-  [[nodiscard]] std::vector<std::string> remarks() const override { return out_.remarks(); }
+  [[nodiscard]] std::vector<std::string> remarks() const override {
+    std::vector<std::string> remarks = out_.remarks();
+    if (!renamed_.empty())
+      remarks.push_back("what describes places gave way to fields: " + renamed_);
+    return remarks;
+  }
 
  private:
   // Defines dimensions, axes, places, columns and arrays, each with a name that is still free.
@@ -298,8 +303,16 @@ class NetcdfSink : public FieldSink {
       remove_marks_of_coordinates(attributes);
       headers.push_back(header_with(netcdf_name(array.name), attributes));
     }
-    std::ranges::move(columns_.headers(), std::back_inserter(headers));
-    return take_names_of_fields(std::move(headers), taken_);
+    const std::vector<VariableHeader> of_columns = columns_.headers();
+    headers.insert(headers.end(), of_columns.begin(), of_columns.end());
+    std::vector<std::string> names = take_names_of_fields(std::move(headers), taken_);
+    for (std::size_t c = 0; c < of_columns.size(); ++c) {
+      const std::string& name = names[fields.arrays.size() + c];
+      // Properties of polygons and columns of tables give way without a word.
+      if (name == of_columns[c].name || !columns_.has_attributes(c)) continue;
+      renamed_ += (renamed_.empty() ? "" : ", ") + of_columns[c].name + " is " + name;
+    }
+    return names;
   }
 
   // Defines the arrays and the columns. `leading` has the dimensions of each array before those of
@@ -396,6 +409,7 @@ class NetcdfSink : public FieldSink {
   // The dimensions, by their names and lengths in the source.
   std::map<std::pair<std::string, std::uint64_t>, LeadingDimension> known_;
   std::vector<std::string> unlimited_;  // names of dimensions that may grow
+  std::string renamed_;                 // what describes places and got other names, in words
 };
 
 }  // namespace

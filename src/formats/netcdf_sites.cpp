@@ -153,6 +153,18 @@ NetcdfSites centers_or_none(const FileName& file, const std::string& variable) {
   }
 }
 
+// Returns the longitudes of a file that has a list of places; empty if it has none.
+std::string longitudes_of_list(const FileName& file) {
+  io::FileBytes bytes(file, true);
+  return io::in_file(bytes.name(), [&]() -> std::string {
+    const std::vector<VariableHeader> headers = formats::headers_of(io::NetcdfReader(bytes));
+    const std::vector<CoordinatePair> pairs = find_coordinates(headers);
+    const bool has_list = !pairs.empty() && !pairs.front().are_axes &&
+                          headers[pairs.front().lon].dimensions.size() == 1;
+    return has_list ? headers[pairs.front().lon].name : std::string();
+  });
+}
+
 // Returns an array with one value at each site as a column; missing values are empty cells.
 Column column_of(const FieldArray& array) {
   Column column;
@@ -323,6 +335,11 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
         sites.remarks.insert(sites.remarks.end(), left_out.begin(), left_out.end());
       }
     } catch (const FileError&) {
+      // A list of stations or the points of a track may have no fields.
+      if (num_centers == 0 && names.empty() && !keep_columns) {
+        const std::string lon = longitudes_of_list(file);
+        if (!lon.empty()) return read_netcdf_sites(file, {&lon, 1}, false);
+      }
       if (num_centers == 0 || !names.empty()) throw;  // a mesh may have no fields
     }
   }

@@ -115,7 +115,7 @@ FieldSet fields_at_targets(const FieldSet& in, std::vector<FieldArray>&& arrays,
   fields.unlimited = in.unlimited;
   fields.attributes = in.attributes;
   fields.numbers = in.numbers;
-  fields.dimension = "cell";
+  fields.dimension = target.has_sites() ? "point" : "cell";
   target.add_mapping(fields);
   const auto tell = [&](const RegridSide& side, const char* name) {
     if (side.are_corners_made()) fields.attributes.emplace_back(name, made_corners_text);
@@ -143,9 +143,6 @@ std::vector<std::string> remarks_of(const RegridSide& source, const RegridSide& 
     add_remarks(file_and_variable({side->name(), {}}).first.path, side->remarks(), all);
   }
   add_remarks(file, fields.remarks, all);
-  if (const std::string remark = remark_on_places({target.name(), {}}); !remark.empty()) {
-    add_remarks(file_and_variable({target.name(), {}}).first.path, {remark}, all);
-  }
   for (const RegridSide* const side : {&source, &target}) {
     const FileName own = file_and_variable({side->name(), {}}).first;
     if (own.path == file || NamedGrid::is_name(side->name()) || !has_mask_variable(own)) continue;

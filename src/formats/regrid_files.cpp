@@ -17,6 +17,7 @@
 #include <system_error>
 #include <utility>
 
+#include "formats/places_of_points.h"
 #include "formats/regrid_carry.h"
 #include "formats/regrid_fields.h"
 #include "formats/regrid_inputs.h"
@@ -108,6 +109,8 @@ void require_effects(const RegridFileOptions& options, const FileName& target,
       can_read_polygons(target) || (options.source && can_read_polygons(*options.source));
   require(has_polygons || options.cells.edges == PolygonEdges::lonlat,
           "edges have no effect without polygons");
+  require(is_of_cells || options.cells.edges == PolygonEdges::lonlat,
+          "edges have no effect with a method between places");
   const bool has_statistics = !options.statistics.empty();
   require(options.vectors.empty() || options.method != FieldMethod::largest_share,
           "vectors have no largest share");
@@ -152,13 +155,14 @@ class RegridJob {
     report_.sources = source_.num_places();
     report_.targets = target_.num_places();
     const FieldSet& in = fields_->fields();
-    const FieldSet written =
+    FieldSet written =
         formats::fields_at_targets(in, arrays_at_targets(), source_, target_, options_.history);
     make_plan();
     fields_->keep_chunks(
         static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     const bool is_netcdf = is_netcdf_file(out_);
-    const WeightSide side = target_.description(is_netcdf, execution_);
+    WeightSide side = target_.description(is_netcdf, execution_);
+    if (target_.has_sites() && is_netcdf) formats::describe_features(written, side);
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
       output.emplace(out_, written, side, options_.netcdf, execution_);
@@ -302,8 +306,12 @@ class RegridJob {
 
   [[nodiscard]] bool any_sums() const { return std::ranges::count(has_sums_, true) > 0; }
 
-  // Adds what sums over cells and extrapolation need beside weights.
+  // Adds what sums over cells, extrapolation and columns beside the places need beside weights.
   void add_costs(formats::RegridTask& task) const {
+    const std::uint64_t of_columns =
+        2 * target_.bytes_of_columns() / std::max<std::size_t>(report_.targets, 1);
+    task.cost.of_target += of_columns;
+    task.cost.of_target_beside += of_columns;
     if (any_sums() && needs_cells_) {
       // The area of a source, and of a target the area by which densities become sums.
       const std::size_t of_source = source_.lines_between() == nullptr ? sizeof(double) : 0;

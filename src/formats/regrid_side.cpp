@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -15,9 +16,11 @@
 #include <system_error>
 #include <utility>
 
+#include "formats/described_places.h"
 #include "formats/field_cells.h"
 #include "formats/grid_of_file.h"
 #include "formats/netcdf_cells.h"
+#include "formats/places_of_points.h"
 #include "formats/sites_gdal.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
@@ -50,19 +53,14 @@ CellTable cells_of_variable(const FileName& file, const std::vector<std::string>
   return read_cells(file, corners);
 }
 
-// Throws FileError for a file that has no places of a grid: polygons, and tables.
+// Throws FileError for a file that has no places: neither netCDF nor points.
 void require_places(const FileName& file) {
-  if (is_netcdf_file(file)) return;
+  if (is_netcdf_file(file) || may_have_points(file)) return;
   std::error_code error;
   if (!std::filesystem::exists(file.path, error)) return;  // which its reader says
-  if (can_read_polygons(file)) {
-    throw FileError(file.path +
-                    ": it has polygons, which are no places: conservative methods, largest_share "
-                    "and statistics are over polygons, and other methods between places");
-  }
   throw FileError(file.path +
-                  ": it is neither the name of a grid nor netCDF with places; rondel interpolate "
-                  "carries values to the points of tables");
+                  ": it is neither the name of a grid, nor netCDF with places, nor points (.csv "
+                  ".tsv .xyz .txt .npy .geojson, and by GDAL .gpkg .fgb .shp .parquet)");
 }
 
 }  // namespace
@@ -76,6 +74,7 @@ RegridSide::RegridSide(const FileName& file, const char* what, const CellFileOpt
   const GridOfFile grid = is_name ? GridOfFile{file.path} : grid_of_file(file, has_cells);
   if (grid.name.empty()) {
     read_without_grid(grid, [&] { read_file(file, has_cells, execution, names); });
+    if (what_ == "target") take_descriptions(has_cells);
     return;
   }
   try {
@@ -94,19 +93,9 @@ RegridSide::RegridSide(const FileName& file, const char* what, const CellFileOpt
 
 void RegridSide::read_file(const FileName& file, bool has_cells, const Execution& execution,
                            std::vector<std::string> names) {
-  if (!has_cells) {
-    const auto [path, variable] = file_and_variable(file);
-    require_places(path);
-    if (!variable.empty()) names = {variable};
-    NetcdfSites sites = read_netcdf_sites(path, names, false);
-    places_ = std::move(sites.table.positions);
-    shape_ = std::move(sites.shape);
-    mask_ = std::move(sites.mask);
-    remarks_ = std::move(sites.remarks);
-    axes_ = axes_of_grid(places_, shape_);
-    return;
-  }
+  if (!has_cells) return read_places(file, execution, std::move(names));
   if (!can_read_cells(file)) {
+    refuse_points_as_cells(file, execution);
     if (!can_read_polygons(file) && !is_read_by_gdal(file)) {
       throw FileError(file.path +
                       ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
@@ -129,6 +118,43 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
   }
   if (cells_->num_cells() == 0) throw FileError(file.path + ": there are no cells");
   take_facts_of_cells();
+}
+
+void RegridSide::read_places(const FileName& file, const Execution& execution,
+                             std::vector<std::string> names) {
+  const auto [path, variable] = file_and_variable(file);
+  require_places(path);
+  if (!is_netcdf_file(path)) {
+    PlacesOfPoints points = read_places_of_points(file, execution);
+    places_ = std::move(points.places);
+    shape_ = {places_.size()};
+    columns_ = std::move(points.columns);
+    remarks_ = std::move(points.remarks);
+    has_sites_ = true;
+    return;
+  }
+  if (!variable.empty()) names = {variable};
+  NetcdfSites sites = read_netcdf_sites(path, names, false);
+  places_ = std::move(sites.table.positions);
+  shape_ = std::move(sites.shape);
+  mask_ = std::move(sites.mask);
+  remarks_ = std::move(sites.remarks);
+  axes_ = axes_of_grid(places_, shape_);
+}
+
+void RegridSide::take_descriptions(bool has_cells) {
+  DescribedPlaces described = described_places(file_, num_places());
+  if (!described.remark.empty()) remarks_.push_back(described.remark);
+  std::ranges::move(described.columns, std::back_inserter(columns_));
+  if (described.are_sites && !has_cells) has_sites_ = true;
+}
+
+std::uint64_t RegridSide::bytes_of_columns() const {
+  std::uint64_t bytes = 0;
+  for (const Column& column : columns_) {
+    bytes += column.text.size() + sizeof(std::uint64_t) * column.ends.size();
+  }
+  return bytes;
 }
 
 // Cells without given centers have their centroids, unless they cross themselves.
@@ -256,7 +282,7 @@ WeightSide RegridSide::description(bool is_netcdf, const Execution& execution) c
   }
   if (!is_netcdf || named_) return side;
   if (!lines_ && !cells_) {
-    find_bounds(file_, side, execution);
+    if (!has_sites_) find_bounds(file_, side, execution);
     return side;
   }
   side.lines = given_lines_;

@@ -38,6 +38,10 @@ class RegridSide {
   [[nodiscard]] const std::vector<std::uint64_t>& shape() const { return shape_; }
   [[nodiscard]] const std::vector<std::int32_t>& mask() const { return mask_; }
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  // True if the places are points of a table or of features, or sites of netCDF by its `featureType`.
+  [[nodiscard]] bool has_sites() const { return has_sites_; }
+  // Returns the bytes of what stands beside the places, such as names of stations.
+  [[nodiscard]] std::uint64_t bytes_of_columns() const;
   // True if the corners of the cells were made from the centers.
   [[nodiscard]] bool are_corners_made() const { return are_corners_made_; }
   // Returns the axes of a grid along axes, or null.
@@ -71,6 +75,11 @@ class RegridSide {
  private:
   void read_file(const FileName& file, bool has_cells, const Execution& execution,
                  std::vector<std::string> names);
+  // Reads the places of netCDF, or the points of another file.
+  void read_places(const FileName& file, const Execution& execution,
+                   std::vector<std::string> names);
+  // Takes what a file of netCDF says of places that are a list.
+  void take_descriptions(bool has_cells);
   // Takes some cells of a grid with a name, which are no grid of their own.
   void take_some(const NamedGrid& grid, const GridOfFile& some, bool has_cells,
                  const Execution& execution);
@@ -92,6 +101,7 @@ class RegridSide {
   std::vector<Column> columns_;
   std::vector<std::string> remarks_;
   bool are_corners_made_ = false;
+  bool has_sites_ = false;
 };
 
 // Returns what extrapolates from one side to the other.

@@ -200,7 +200,7 @@ class Attributes(ToolInFolder):
                 self.assertEqual(out.coordinates.split(), ["season", "lat_"])
                 self.assertLessEqual({*out.coordinates.split()}, {*out.variables})
 
-    def test_what_tells_of_targets_alone_is_told(self):
+    def test_what_tells_of_targets_alone_is_kept_or_told(self):
         self.new("in.nc").close()
         with netCDF4.Dataset(self.folder / "track.nc", "w") as file:
             for name, size in (("time", 3), ("length", 4), ("lev", 2)):
@@ -212,9 +212,16 @@ class Attributes(ToolInFolder):
             add(file, "deep", ("time",), 5.0)
             add(file, "heat", ("time",), 5.0, coordinates="lon lat deep")
             add(file, "lev", ("lev",), [1.0, 2])
-        why = ["track.nc: left out, as they describe the places of the target: time, ship, deep"]
-        self.assertEqual(self.run_tool("regrid", "in.nc", "track.nc", "--method", "nearest", "-o", "out.nc"), why)
-        self.assertEqual(self.run_tool("interpolate", "in.nc", "--to", "track.nc", "-o", "out.nc"), why)
+            add(file, "wide", ("time", "lev", "length"), np.full((3, 2, 4), b"b"), "S1")
+        why = ["track.nc: left out, as they describe the places of the target: wide"]
+        for command in (("regrid", "in.nc", "track.nc", "--method", "nearest"), ("interpolate", "in.nc", "--to", "track.nc")):
+            self.assertEqual(self.run_tool(*command, "-o", "out.nc"), why)
+            with netCDF4.Dataset(self.folder / "out.nc") as file:
+                self.assertEqual(file["time"].units, "hours since 2000-01-01")
+                self.assertEqual(file["time"][:].tolist(), [0, 1, 2])
+                self.assertEqual(file["ship"][:].tolist(), ["aaaa"] * 3)
+                self.assertEqual(file["deep"][:].tolist(), [5, 5, 5])
+                self.assertNotIn("heat", file.variables)
         # Axes and named grids have nothing of the kind.
         for target in ("in.nc", "healpix:1"):
             self.assertEqual(self.run_tool("regrid", "in.nc", target, "--method", "nearest", "-o", "out.nc"), [])

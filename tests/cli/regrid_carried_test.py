@@ -400,10 +400,12 @@ class Carried(ToolInFolder):
         for name, last in (("closed", 0), ("open", 1)):
             features = [feature.format(polygon.format(ring.format(last))), feature.format("null")]
             (self.folder / f"{name}.geojson").write_text('{"type":"FeatureCollection","features":[' + ",\n".join(features) + "]}")
-        (self.folder / "table.csv").write_text("lon,lat\n1,2\n")
+        for name in ("table.csv", "table.off"):
+            (self.folder / name).write_text("lon,lat\n1,2\n")
         for target, method, wanted in (
             ("closed.geojson", "linear", "it has polygons, which are no places"),
-            ("table.csv", "nearest", "neither the name of a grid nor netCDF with places; rondel interpolate"),
+            ("table.csv", "conservative", "points have no cells, which conservative methods"),
+            ("table.off", "nearest", "neither the name of a grid, nor netCDF with places, nor points (.csv"),
             ("open.geojson", "conservative", "1: feature 0: a ring that is not closed, from 0 0 to 0 1; --invalid repair"),
         ):
             said = self.run_tool("regrid", "in.nc", target, "--method", method, "--value", "t", "-o", "x.csv", status=1)

@@ -134,8 +134,8 @@ ArrayOut<double> corners_of_nodes(const PairsIn& nodes, std::array<std::size_t, 
 }
 
 // The members of a column.
-using ColumnText =
-    std::tuple<std::string, bool, std::string, std::vector<std::uint64_t>, std::vector<bool>>;
+using ColumnText = std::tuple<std::string, bool, std::string, std::vector<std::uint64_t>,
+                              std::vector<bool>, std::vector<std::pair<std::string, std::string>>>;
 
 void add_cell_facts(nb::module_& module) {
   nb::class_<Column>(module, "Column")
@@ -146,9 +146,10 @@ void add_cell_facts(nb::module_& module) {
           },
           nb::arg("text"))
       .def("__reduce__", [](const nb::object& self) {
-        const auto& [name, is_numeric, text, ends, is_json] = nb::cast<const Column&>(self);
-        return nb::make_tuple(self.type(),
-                              nb::make_tuple(ColumnText{name, is_numeric, text, ends, is_json}));
+        const auto& [name, is_numeric, text, ends, is_json, attributes] =
+            nb::cast<const Column&>(self);
+        return nb::make_tuple(self.type(), nb::make_tuple(ColumnText{name, is_numeric, text, ends,
+                                                                     is_json, attributes}));
       });
   nb::class_<CellFacts> facts(module, "CellFacts");
   add_array<double, &CellFacts::centers>(facts, "centers");

@@ -328,6 +328,11 @@ TEST(regrid_files, refuse_what_does_not_fit) {
   }
   EXPECT_EQ(why(table),
             table +
+                ": points have no cells, which conservative methods, largest_share and statistics "
+                "need; nearest, linear, laplace, sibson, hermite, cubic, bilinear and native are "
+                "the methods for points");
+  EXPECT_EQ(why(grib),
+            grib +
                 ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
                 "(.geojson, and by GDAL .gpkg .fgb .shp .parquet)");
   EXPECT_EQ(
