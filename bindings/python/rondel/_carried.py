@@ -24,6 +24,7 @@ from ._coordinates import (
 )
 from ._errors import warn_caller
 from ._places import Places
+from ._sites import feature_type
 from ._types import IntArray
 from ._values import OF_VALUES, missing_marker, unpacked
 
@@ -62,6 +63,7 @@ def carried(
     output_chunks: OutputChunks = None,
     coincident: IntArray | None = None,
     over_cells: OverCells | None = None,
+    describes: bool = False,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
     contributes to, while those that need a missing value have NaN. `coincident` has pairs of
@@ -69,7 +71,8 @@ def carried(
     `how` "by_kind" arrays of flags get the value of the largest part. Flags stay flags there, and
     where `are_chosen` says that each target has the value of one source. Arrays of Dask stay lazy,
     in blocks of the targets as `output_chunks` says. `over_cells` says what becomes of sums over
-    cells and what the result says of its cells.
+    cells and what the result says of its cells. With `describes` it has what a list of targets
+    says of itself, such as names of stations.
     """
     cells = OverCells(are_told=False) if over_cells is None else over_cells
     data = unpacked(data)
@@ -149,7 +152,8 @@ def carried(
     _tell_of_chunks(data, output_chunks)
     if isinstance(data, xarray.DataArray):
         name = names_apart([data.name], data, wanted).get(data.name, data.name)
-        return _without_bounds(moved(data), wanted).rename(name)
+        found = _without_bounds(moved(data), wanted).rename(name)
+        return _with_descriptions(found, wanted) if describes else found
     lost = [str(dim) for dim in source.dims if dim not in data.dims]
     if lost:
         raise ValueError(
@@ -196,7 +200,11 @@ def carried(
     limits = whole.encoding.get("unlimited_dims")
     if limits:
         whole.encoding["unlimited_dims"] = {dim for dim in limits if dim in whole.dims}
-    return _with_bounds(whole, wanted)
+    whole = _with_bounds(whole, wanted)
+    if not describes:
+        return whole
+    whole = _with_descriptions(whole, wanted)
+    return _with_feature_type(whole, wanted) if keep_attrs and wanted.are_sites else whole
 
 
 def in_order(made: xarray.Dataset, data: xarray.Dataset) -> xarray.Dataset:
@@ -477,6 +485,47 @@ def _without_bounds(made: Any, wanted: Places) -> Any:
         item.encoding = {key: text for key, text in item.encoding.items() if key != "bounds"}
         coordinates[name] = item
     return made.assign_coords(coordinates)
+
+
+def _with_descriptions(made: Any, wanted: Places) -> Any:
+    """The same with what a list of targets says of itself, as coordinates. They give way to what
+    has their names, as in files.
+    """
+    taken = {str(name) for name in (*getattr(made, "variables", made.coords), *made.dims)}
+    taken.add(str(getattr(made, "name", "")))
+    renamed = {}
+    found = {}
+    for name, item in wanted.described().items():
+        if name in made.coords and made.coords[name].dims == item.dims:
+            continue  # it came with the longitudes and latitudes
+        new = str(name)
+        while new in taken and (new,) != item.dims:
+            new += "_"
+        if new != str(name):
+            renamed[str(name)] = new
+        taken.add(new)
+        found[new] = item
+    if renamed:
+        texts = ", ".join(f"{name} is {new}" for name, new in renamed.items())
+        warn_caller(f"what describes places gave way to fields: {texts}")
+    return made.assign_coords(found)
+
+
+def _with_feature_type(made: xarray.Dataset, wanted: Places) -> xarray.Dataset:
+    """The same with CF's `featureType`, if its fields have one, for which names have their role."""
+    feature = feature_type(made, wanted.dims[0])
+    if not feature:
+        return made
+    roles = {"profile": "profile_id", "point": None}
+    named = {}
+    for name, item in made.coords.items():
+        if item.dims != wanted.dims or "cf_role" not in item.attrs:
+            continue
+        role = roles.get(feature, "timeseries_id")
+        attrs = {key: text for key, text in item.attrs.items() if key != "cf_role"}
+        named[name] = item.variable.copy(deep=False)
+        named[name].attrs = attrs if role is None else {**attrs, "cf_role": role}
+    return made.assign_attrs(featureType=feature).assign_coords(named)
 
 
 def _kind(array: Any) -> Any:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import os
 from collections.abc import Hashable, Iterable, Mapping
 from typing import Any
@@ -32,6 +33,7 @@ from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._errors import InvalidInput, warn_caller
 from ._geometries import Corners, in_degrees, is_of_geopandas
 from ._mesh_bytes import mesh_bytes
+from ._sites import METHODS_FOR_POINTS, columns_of, described
 from ._types import BoolArray, FloatArray, IntArray
 from ._values import mask_of_convention, mask_of_variable, unpacked
 from ._weight_files import MAX_APART, are_near, side_of
@@ -106,6 +108,9 @@ class Places:
             data = CellSet.named(os.fsdecode(data))
         given = data
         self._corners = corners
+        # A table with the names of its coordinates; and what a list has in place of its dimension.
+        self._table: tuple[Any, set[str]] | None = None
+        self._other_dim: Hashable | None = None
         self._named_cells: CellSet | None = None  # those of the grid that the data name
         self._mesh_cells: CellSet | None = None  # those of a mesh, at the centers of which data are
         # Places that have been triangulated, each with the one before it in the same place.
@@ -124,7 +129,8 @@ class Places:
             else:
                 data = _dataset({"lon": data[0], "lat": data[1]}, are_points)
         elif hasattr(type(data), "columns") and hasattr(data, "to_numpy"):
-            data = _of_table(data)
+            data, taken = _of_table(data)
+            self._table = given, taken
         elif not isinstance(data, (xarray.Dataset, xarray.DataArray)):
             raise TypeError(
                 "places are a Dataset, a DataArray, a dictionary or table with lon and lat, a "
@@ -155,6 +161,8 @@ class Places:
         self.coordinates = {self._found.lat_name: lats, self._found.lon_name: lons}
         self.dims = south.dims
         self.shape = south.shape
+        is_told = isinstance(given, xarray.Dataset) and "featureType" in given.attrs
+        self.are_sites = self._table is not None or are_points or (is_told and len(self.dims) == 1)
         self.lon, self.lat = west.values, south.values
         if of_grid := self.mapping[1]:
             self.coordinates = {
@@ -294,7 +302,7 @@ class Places:
         """
         cells = self._cells if self._cells is not None else self._mesh_cells
         if cells is None:
-            return self._found.bounds_once()
+            return {name: self._along(item) for name, item in self._found.bounds_once().items()}
         if self._bounds_of_cells is None:
             found = _bounds_of(cells, self._grid, self.dims, self.shape)
             if self._mesh_cells is not None:
@@ -302,6 +310,43 @@ class Places:
                 found = {f"{own[str(name)]}_bnds": item for name, item in found.items()}
             self._bounds_of_cells = found
         return dict(self._bounds_of_cells)
+
+    def described(self) -> dict[Hashable, xarray.Variable]:
+        """What a list of places says of itself: columns of a table, names of stations."""
+        if len(self.dims) != 1 or self._cells is not None:
+            return {}
+        own = {*map(str, self.coordinates), *map(str, self._found.bounds_names), "mask"}
+        found = described(self._data, self._found.lon.dims[0], own)
+        if self._table is not None:
+            found |= columns_of(*self._table, self._found.lon.dims[0])
+        return {name: self._along(item) for name, item in found.items()}
+
+    def apart_from(self, data: Any, source: Places) -> Places:
+        """The same, along another dimension if that of a list is one of the data, too, as a time of
+        both; a warning says so.
+        """
+        others = {*data.dims} - {*source.dims}
+        if len(self.dims) != 1 or self.dims[0] not in others:
+            return self
+        made, old, new = copy.copy(self), self.dims[0], "point"
+        while new in others or new in self._data.dims:
+            new += "_"
+        warn_caller(
+            f"the dimension {old!r} of the targets is {new!r} in the result, as the data have one "
+            "of that name"
+        )
+        made._other_dim, made.dims = new, (new,)
+        made.coordinates = {name: made._along(item) for name, item in self.coordinates.items()}
+        return made
+
+    def _along(self, item: xarray.Variable) -> xarray.Variable:
+        """The variable along the dimension of these places."""
+        if self._other_dim is None:
+            return item
+        names = {self._found.lon.dims[0]: self._other_dim}
+        made = item.to_base_variable().copy(deep=False)
+        made.dims = tuple(names.get(dim, dim) for dim in made.dims)
+        return made
 
     def require_same(self, data: Any) -> None:
         """Refuses data that have coordinates of the same names with other values."""
@@ -578,6 +623,10 @@ class Places:
         if (lon is None or lat is None) and self._corners == "made":
             lon, lat = self._made_nodes()
         if lon is None or lat is None:
+            if self.are_sites:
+                raise ValueError(
+                    f"points have no cells, which conservative methods need; {METHODS_FOR_POINTS}"
+                )
             way_out = "; corners='made' makes them from the centers"
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
@@ -671,15 +720,21 @@ def _paired(lon: Any, lat: Any) -> xarray.Dataset:
     return _marked({"lon": (dims, lons), "lat": (dims, lats)})
 
 
-def _of_table(table: Any) -> xarray.Dataset:
-    """The points of a DataFrame: by its columns, or of a GeoDataFrame with points."""
+def _of_table(table: Any) -> tuple[xarray.Dataset, set[str]]:
+    """The points of a DataFrame: by its columns, or of a GeoDataFrame with points; and the names of
+    the columns that have them.
+    """
     found = {}
+    taken = set()
+    if is_of_geopandas(table) and getattr(table, "_geometry_column_name", None) in table.columns:
+        taken.add(str(table.geometry.name))
     for kind, names in _COLUMNS.items():
         columns = [name for name in table.columns if str(name).lower() in names]
         if len(columns) > 1:
             texts = " and ".join(map(str, columns))
             raise ValueError(f"the columns {texts} may be the {kind}: leave one")
         found[kind] = table[columns[0]].to_numpy() if columns else None
+        taken |= {*map(str, columns)}
     is_nameless = found["lon"] is None and found["lat"] is None
     if is_nameless and is_of_geopandas(table) and hasattr(table, "geometry"):
         points = in_degrees(table.geometry)
@@ -691,7 +746,7 @@ def _of_table(table: Any) -> xarray.Dataset:
     for kind, column in found.items():
         if column is None:
             raise ValueError(f"no column of the table has the {MARKS[kind][0]}s ({kind})")
-    return _paired(found["lon"], found["lat"])
+    return _paired(found["lon"], found["lat"]), taken
 
 
 def _cells_of_corners(

@@ -51,6 +51,7 @@ def regrid(
     lat: Hashable | None = None,
     lon_out: Hashable | None = None,
     lat_out: Hashable | None = None,
+    locstream_out: bool = False,
     max_missing: float = 0.5,
     output_chunks: OutputChunks = None,
     extrap_method: Extrapolation | None = None,
@@ -61,7 +62,7 @@ def regrid(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Any:
-    """Brings a Dataset or DataArray to another grid.
+    """Brings a Dataset or DataArray to another grid, or to points.
 
     It needs xarray. A `Regridder` does the same in two steps, for many data on one grid, and
     `regrid_file` for files that do not fit into memory.
@@ -73,8 +74,14 @@ def regrid(
         (UGRID, SCRIP, ESMF, MPAS, ICON or Exodus); arrays of Dask stay lazy. A variable `mask` is a
         field as others here, and masks nothing, as with `regrid_file`; a warning says so. A
         `Regridder` takes it for a mask, as xESMF does.
-    target : str, Dataset, DataArray, dict, tuple or CellSet
-        The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it.
+    target : str, Dataset, DataArray, DataFrame, GeoDataFrame, dict, tuple or CellSet
+        The name of a grid (`CellSet.named`), or a grid as `Regridder` takes it. Or points, with
+        methods between places: a DataFrame with columns `lon` and `lat` in degrees, a GeoDataFrame
+        of points, a Dataset whose longitudes and latitudes have one dimension, or, with
+        `locstream_out`, a dictionary or tuple (lon, lat) of arrays of shape (n,). Other columns,
+        and coordinates and texts along the dimension of the points, become coordinates of the
+        result. A dimension that the data have, too, as a time of both, becomes `point`, with a
+        warning.
     method : str, optional
         'conservative' and 'conservative_2nd': means over cells, divided by the covered area of a
         target, as those of 'conservative_normed' and 'conservative_2nd_normed' of a `Regridder`;
@@ -88,6 +95,9 @@ def regrid(
         source's sum with 'conservative' and 'conservative_2nd', whatever `max_missing` is.
     lon, lat, lon_out, lat_out : str, optional
         The names of the longitudes and latitudes of both sides, if they are not found.
+    locstream_out : bool, optional
+        Whether a dictionary or tuple has the coordinates of points instead of axes, as in
+        `Regridder`; by default False.
     max_missing : float, optional
         The share of a target that no source may cover, with conservative methods, and of its
         covered part in which values may be missing, from 0 to 1; by default 0.5 for both, as in
@@ -114,7 +124,8 @@ def regrid(
     -------
     Dataset or DataArray
         The fields at the target, with their attributes. With means over cells `cell_methods` says
-        so.
+        so; a Dataset at points has the attribute `featureType` of CF, if all of its fields are of
+        one type.
 
     Raises
     ------
@@ -146,6 +157,7 @@ def regrid(
         without_mask(data, "data"),
         without_mask(target, "target"),
         cast("RegridMethod", _OF_REGRIDDER.get(method, method)),
+        locstream_out=locstream_out,
         lon=lon,
         lat=lat,
         lon_out=lon_out,
@@ -158,7 +170,8 @@ def regrid(
         threads=threads,
         progress=progress,
     )
-    regridder._keeps_sums = True
+    regridder._keeps_sums = regridder._describes = True
+    regridder._target = regridder._target.apart_from(data, regridder._source)
     return regridder(
         data,
         keep_attrs=True,

@@ -107,8 +107,10 @@ def regrid_file(
     path : path-like
         netCDF with fields; ``"FILE.nc:NAME"`` is one of them, or one of several grids.
     target : path-like
-        The name of a grid (`CellSet.named`), netCDF with cells, or polygons: .geojson, and with
-        GDAL installed .gpkg, .fgb, .shp or .parquet.
+        The name of a grid (`CellSet.named`), netCDF with cells or places, or polygons: .geojson,
+        and with GDAL installed .gpkg, .fgb, .shp or .parquet. Or points, with methods between
+        places: in these formats, or .csv, .tsv, .xyz, .txt or .npy; their columns and properties,
+        and what netCDF says of its places, stand beside the values.
     out : path-like
         Ends in .nc or .nc4 (netCDF-4), .csv, .tsv or .npy. The file appears when it is complete.
     names : str or iterable of str, optional

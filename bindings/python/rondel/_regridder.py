@@ -336,7 +336,9 @@ class Regridder(Described):
         self._sums: WeightsOfSums | None = None  # what keeps sums over cells, if it is wanted
         if weights is None and isinstance(found, Remap) and pieces is not None:
             self._sums = weights_of_sums(pieces, found.weights, self._applied)
-        self._keeps_sums = False  # as xESMF, unless rondel.regrid says otherwise
+        # As xESMF, unless rondel.regrid says otherwise.
+        self._keeps_sums = False
+        self._describes = False
 
     @property
     def shape_in(self) -> tuple[int, ...]:
@@ -443,6 +445,7 @@ class Regridder(Described):
             "are_chosen": self._are_chosen(),
             "output_chunks": output_chunks,
             "coincident": self._coincident,
+            "describes": self._describes,
             "over_cells": OverCells(
                 "mean" if self.method in _CONSERVATIVE else "",
                 self._sums if self._keeps_sums else None,
