@@ -19,8 +19,9 @@ from ._regions import Regions
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Progress
 from ._voronoi_mesh import Mesh
-from ._weight_files import netcdf_name
+from ._weight_files import are_near, netcdf_name
 from ._weights import Weights
+from ._zarr_weights import remap_in_group, remap_to_zarr
 
 CellOverlap: TypeAlias = Literal["error", "first", "share", "each"]
 RemapLimiter: TypeAlias = Literal["none", "bounds", "slopes"]
@@ -88,6 +89,71 @@ class Remap(Described):
 
         """
         _core.write_remap(netcdf_name(path, format), format, self._made())
+
+    to_zarr = remap_to_zarr
+
+    @classmethod
+    def from_zarr(
+        cls, path: Path, source: Any = None, target: Any = None, *, threads: int | None = None
+    ) -> Remap:
+        """Reads what `to_zarr` wrote. `Weights.from_zarr` reads the weights alone, or some rows.
+
+        Parameters
+        ----------
+        path : path_like
+            The folder.
+        source, target : CellSet or what `remap` takes, optional
+            The cells of both sides, which the group does not have; by default the grids that it
+            names (`CellSet.named`).
+        threads : int, optional
+            The largest number of threads; by default one for each core.
+
+        Returns
+        -------
+        Remap
+            The weights, areas and fractions are equal to the bit, and the masks are those of the
+            group.
+
+        Raises
+        ------
+        ImportError
+            If zarr-python 3 or later is not installed.
+        OSError
+            If there is no such folder, or no group in it.
+        ValueError
+            If the group has no remapping, names no grid of a side whose cells are not given, or
+            the cells have other centers than there.
+
+        Examples
+        --------
+        >>> import rondel
+        >>> remap = rondel.remap("grid:90", "healpix:0")
+        >>> remap.to_zarr("weights.zarr")  # doctest: +SKIP
+        >>> rondel.Remap.from_zarr("weights.zarr")  # doctest: +SKIP
+        <rondel.Remap: 8 cells to 12 cells, 24 weights>
+        >>> rondel.Weights.from_zarr("weights.zarr", rows=slice(0, 4))  # doctest: +SKIP
+        <rondel.Weights: 4 targets, 8 sites, 8 entries>
+
+        """
+        found = remap_in_group(path)
+        sides = []
+        for k, (what, given) in enumerate((("source", source), ("target", target))):
+            grid, places, mask = found.grids[k], found.places[k], found.masks[k]
+            if given is None and grid is None:
+                raise ValueError(f"{found.path}: it names no grid of the {what}: give its cells")
+            cells = as_cell_set(grid if given is None else given, threads)
+            own = cells._degrees()
+            if len(own) != len(places) or not are_near(own, places).all():
+                raise ValueError(f"{found.path}: the {what} has other cells")
+            same = np.array_equal(cells.mask, mask)
+            sides.append(cells if same else cells._with(mask=mask.astype(np.int32)))
+        self = cls.__new__(cls)
+        self.weights = Weights.from_zarr(path)
+        self.source, self.target = sides
+        self.source_areas, self.target_areas = found.areas
+        self.source_fractions, self.target_fractions = found.fractions
+        self._norm, self._order = found.norm, found.order
+        return self
 
     def _made(self) -> _core.Remap:
         """The same as the library has it."""

@@ -28,6 +28,7 @@ from ._repr import Described, count
 from ._tables import _replaced
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 from ._weight_files import weights_to_netcdf
+from ._zarr_weights import weights_from_zarr, weights_to_zarr
 
 
 class Weights(Described):
@@ -316,6 +317,8 @@ class Weights(Described):
             raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     to_netcdf = weights_to_netcdf
+    to_zarr = weights_to_zarr
+    from_zarr = classmethod(weights_from_zarr)
 
     def _renumbered(self, rows: Any, columns: Any, shape: tuple[int, int]) -> Weights:
         """The weights of a part of targets and sites as those of all: the numbers of its rows and

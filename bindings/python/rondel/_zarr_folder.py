@@ -19,7 +19,9 @@ from ._ugrid import MAKER
 _numbers = itertools.count()
 
 # All files that a group may have.
-_ARRAYS = "areas|duplicates|faces|ghost_faces|mesh|neighbors|node_lat|node_lon|sites"
+_MESH = "areas|duplicates|faces|ghost_faces|mesh|neighbors|node_lat|node_lon|sites"
+_WEIGHTS = "S|row|col|row_begin|chunk_row|(area|frac|mask|xc|yc)_[ab]|(src|dst)_grid_dims"
+_ARRAYS = f"{_MESH}|{_WEIGHTS}"
 _KNOWN = re.compile(rf"zarr\.json|({_ARRAYS})(/(zarr\.json|c(\.\d+)*))?")
 
 
