@@ -95,6 +95,31 @@ TEST(regrid_ranks, bytes_are_those_of_one_process) {
   }
 }
 
+TEST(regrid_ranks, points_of_a_table_have_the_bytes_of_one_process) {
+  const std::string in = temporary_path("ranks.nc");
+  const std::string table = temporary_path("sites.csv");
+  const std::string out = temporary_path("one.nc");
+  const std::string other = temporary_path("many.nc");
+  write_times(in, "grid:6");
+  std::string text = "lon,lat,name\n";
+  for (int k = 0; k < 500; ++k) {
+    text += std::to_string(k * 7 % 361) + ',' + std::to_string(k * 11 % 181 - 90) + ",station " +
+            std::to_string(k) + '\n';
+  }
+  std::ofstream(table) << text;
+  RegridFileOptions options{.method = FieldMethod::linear};
+  regrid_file({in, {}}, {table, {}}, {out, {}}, options);
+  for (const std::size_t tile : {0U, 70U}) {
+    options.cells_per_tile = tile;
+    SimulatedRanks ranks(3);
+    for (const std::string& error : run_ranks(ranks, in, table, other, options)) {
+      EXPECT_EQ(error, "");
+    }
+    EXPECT_TRUE(bytes_in(other) == bytes_in(out)) << tile;
+    std::filesystem::remove(other);
+  }
+}
+
 TEST(regrid_ranks, a_rank_that_fails_anywhere_ends_all_and_another_run_goes_on) {
   const std::string in = temporary_path("ranks.nc");
   const std::string out = temporary_path("one.nc");
