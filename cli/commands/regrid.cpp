@@ -252,36 +252,40 @@ void add_amounts(CLI::App& parser, RegridCommandOptions& options) {
   });
 }
 
-}  // namespace
-
-Command add_regrid_command(CLI::App& tool) {
-  auto options = std::make_shared<RegridCommandOptions>();
-  CLI::App* parser = tool.add_subcommand("regrid", "Bring the fields of a file to another grid");
+void add_regrid_files(CLI::App& parser, RegridCommandOptions& options) {
   parser
-      ->add_option("INPUT", options->common.input,
-                   "netCDF with fields; FILE.nc:NAME is one of them, or one of several grids")
+      .add_option("INPUT", options.common.input,
+                  "netCDF with fields; FILE.nc:NAME is one of them, or one of several grids")
       ->required()
       ->type_name("");
   parser
-      ->add_option(
-          "TARGET", options->target,
+      .add_option(
+          "TARGET", options.target,
           "The name of a grid (below), netCDF with cells or places, polygons: .geojson, and with\n"
           "GDAL installed .gpkg .fgb .shp .parquet; or points, for methods between places: these\n"
           "formats, .csv .tsv .xyz .txt .npy")
       ->required()
       ->type_name("");
-  add_output_option(*parser, options->common, "Where to write the fields: .nc .nc4 .csv .tsv .npy")
+  add_output_option(parser, options.common, "Where to write the fields: .nc .nc4 .csv .tsv .npy")
       ->required();
   parser
-      ->add_option("--value", options->regrid.names,
-                   "A variable (default: all at the places of the source); may be repeated")
+      .add_option("--value", options.regrid.names,
+                  "A variable (default: all at the places of the source); may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME");
   parser
-      ->add_option("--source", options->source,
-                   "Where the fields are, if INPUT does not say it: the name of a grid, or a file\n"
-                   "with cells")
+      .add_option("--source", options.source,
+                  "Where the fields are, if INPUT does not say it: the name of a grid, or a file\n"
+                  "with cells")
       ->type_name("GRID");
+}
+
+}  // namespace
+
+Command add_regrid_command(CLI::App& tool) {
+  auto options = std::make_shared<RegridCommandOptions>();
+  CLI::App* parser = tool.add_subcommand("regrid", "Bring the fields of a file to another grid");
+  add_regrid_files(*parser, *options);
   add_methods(*parser, *options);
   add_vectors(*parser, *options);
   add_extrapolate_options(*parser, options->common, options->extrapolate);
