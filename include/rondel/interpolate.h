@@ -111,7 +111,10 @@ struct InterpolationOptions {
 /// 3. Range: no weight of nearest, linear, laplace and sibson is negative. hermite and cubic may
 ///    overshoot.
 /// 4. At a site the value is that of the site, exactly, by one weight. On an edge linear has two
-///    weights.
+///    weights. Sites of one great circle are rounded, and then triangles on the border join sites
+///    that have others within rounding between them: there every method but nearest takes the target
+///    to be on the edge between the sites next to it. Such a triangle is at most 2^-49 radians high
+///    above its longest side, and its sides are longer than 2^-29.
 /// 5. Outside of all solid faces (Locator) a target has no value, except as Outside says. Natural
 ///    neighbors have no value either where the new cell is larger than a hemisphere, and
 ///    homogeneous weights where r is below 2^-20. nearest always has a value if there is a site. In

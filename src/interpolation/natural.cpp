@@ -37,12 +37,16 @@ WideVector wide_step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
           difference(u.hi.z, u.lo.z, x.hi.z, x.lo.z)};
 }
 
+// True on an edge with no face on one of its sides, or a flat one.
 bool is_on_contour(const PreparedTriangulation& prepared, const Location& location) {
   if (location.where != Where::edge) return false;
+  const FlatFaces& flat = prepared.flat_faces();
+  if (flat.contains(location.face)) return true;
   const topology::Face& face = prepared.mesh()[location.face];
   for (std::size_t i = 0; i < 3; ++i) {
     if (face.vertex[i] == location.sites[0] || face.vertex[i] == location.sites[1]) continue;
-    return !prepared.is_solid(topology::face_of(face.opposite[i]));
+    const Index behind = topology::face_of(face.opposite[i]);
+    return !prepared.is_solid(behind) || flat.contains(behind);
   }
   return false;
 }
@@ -52,8 +56,9 @@ bool is_on_contour(const PreparedTriangulation& prepared, const Location& locati
 // If the cell is not bounded even in arbitrary precision, the target is so near to an edge of the
 // contour that the weights of that edge are correct.
 void NaturalKernel::operator()(const LocatedTarget& place, Row& row) {
-  if (is_on_contour(prepared_, place.location)) {
-    weigh_on_edge(prepared_, place, row);
+  const Location beside = prepared_.flat_faces().location_beside(place);
+  if (is_on_contour(prepared_, beside)) {
+    weigh_on_edge(prepared_, {place.point, place.unit, beside}, row);
     return;
   }
   region_.find(place);

@@ -30,6 +30,7 @@ PreparedTriangulation::PreparedTriangulation(const Triangulation& triangulation)
   units_.resize(num_vertices());
   exact::unit_vectors(triangulation.sites().points(), built_.representatives(), center_,
                       units_.data());
+  if (triangulation.dimension() == 2) flat_faces_ = FlatFaces(triangulation_, mesh(), units_);
 }
 
 }  // namespace rondel::interpolation

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "exact/unit_vector.h"
+#include "interpolation/flat_faces.h"
 #include "query/built.h"
 #include "query/engine.h"
 #include "rondel/triangulation.h"
@@ -45,6 +46,9 @@ class PreparedTriangulation {
   [[nodiscard]] const topology::Mesh& mesh() const { return built_.mesh(); }
   [[nodiscard]] bool is_solid(Index face) const { return !triangulation_.is_ghost(face); }
 
+  // Returns the faces on the border in which no target is interpolated.
+  [[nodiscard]] const FlatFaces& flat_faces() const { return flat_faces_; }
+
   // unit() is the direction of a vertex from the center (Model::projected only), point() its
   // coordinates as given.
   [[nodiscard]] const exact::SplitPoint& unit(Index rank) const { return units_[rank]; }
@@ -64,6 +68,7 @@ class PreparedTriangulation {
   std::vector<Index> ranks_;  // 0, 1, 2 ...
   query::Engine engine_;
   std::vector<exact::SplitPoint> units_;
+  FlatFaces flat_faces_;
 };
 
 }  // namespace rondel::interpolation

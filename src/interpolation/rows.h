@@ -121,6 +121,7 @@ class KernelRows {
   void expect(std::size_t lane, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor) {
     LocatedTarget& place = places_[lane];
     place = {p, u, finder_.locate(p, cursor)};
+    if (has_weights(place)) place.location = prepared_.flat_faces().location_of(place);
     if constexpr (GroupKernel<K>) {
       if (has_weights(place)) kernel_.expect(lane, place);
     }

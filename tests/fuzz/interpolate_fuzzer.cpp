@@ -206,6 +206,48 @@ void test(const Question& q) {
   }
 }
 
+// Sites in rows, the first of which is on a great circle up to rounding, and all others on one side
+// of it: some ulps beside a site of the first row the value is the site's.
+void test_great_circle(const std::uint8_t* data, std::size_t size, Method method) {
+  ByteSource source(data, size);
+  const auto number = [&source] { return static_cast<double>(source.small()) + 0.3; };
+  const Point origin{};
+  const auto x = direction({number(), number(), number()}, origin);
+  const Point other = {number(), number(), number()};
+  const Point across = {x->y * other.z - x->z * other.y, x->z * other.x - x->x * other.z,
+                        x->x * other.y - x->y * other.x};
+  const auto z = direction(across, origin);
+  if (!z || std::abs(across.x) + std::abs(across.y) + std::abs(across.z) < 1e-3) return;
+  const Point y = {z->y * x->z - z->z * x->y, z->z * x->x - z->x * x->z, z->x * x->y - z->y * x->x};
+  const auto at = [&](double lon, double lat) {
+    const double a = std::cos(lat) * std::cos(lon);
+    const double b = std::cos(lat) * std::sin(lon);
+    const double c = std::sin(lat);
+    const auto off = [&] { return 0x1p-53 * (static_cast<double>(source.below(5)) - 2); };
+    return Point{a * x->x + b * y.x + c * z->x + off(), a * x->y + b * y.y + c * z->y + off(),
+                 a * x->z + b * y.z + c * z->z + off()};
+  };
+  const std::size_t length = 3 + source.below(20);
+  const std::size_t num_rows = 1 + source.below(4);
+  const double step = (1 + static_cast<double>(source.byte())) / 100 / static_cast<double>(length);
+  std::vector<Point> sites;
+  std::vector<Point> targets;
+  std::vector<double> field;
+  for (std::size_t i = 0; i < num_rows * length; ++i) {
+    const double along = step * static_cast<double>(i % length);
+    const double up = std::min(step, 0.3) * static_cast<double>(i / length);
+    sites.push_back(at(along, up));
+    field.push_back(static_cast<double>(source.byte()));
+    if (i < length) targets.push_back(at(along, 0));
+  }
+  const std::vector<double> values =
+      Interpolator(delaunay(sites)).values(field, targets, {.method = method});
+  for (std::size_t i = 0; i < length; ++i) {
+    require(std::isnan(values[i]) || std::abs(values[i] - field[i]) < 1e-6,
+            "beside a site of a great circle the value is the site's");
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -236,5 +278,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   fuzz::add_targets(source, q, scales);
   if (!q.targets.empty() && !q.sites.empty()) fuzz::test(q);
+  fuzz::test_great_circle(data, size, q.how.method);
   return 0;
 }

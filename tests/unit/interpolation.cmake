@@ -4,6 +4,7 @@ rondel_add_test(interpolation_test
   interpolation/bilinear_test.cpp
   interpolation/collected_test.cpp
   interpolation/errors_test.cpp
+  interpolation/flat_faces_test.cpp
   interpolation/linear_test.cpp
   interpolation/places_test.cpp
   interpolation/regrid_test.cpp

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -53,6 +55,30 @@ void expect_exact(const WeightRow& row, const std::map<Index, Real>& exact, doub
   }
 }
 
+// True if a face of the location, or the one behind its edge, is at most 2^-49 high above its longest
+// side, and has no short side: there rows are those of edges (flat_faces_test.cpp).
+bool is_flat(const InterpolationCase& c, const Location& location) {
+  const auto direction = [&](Index i) {
+    return real_direction(c.set.sites[i], c.set.sphere.center);
+  };
+  const auto length = [](const RealVector& v) { return sqrt(test::dot(v, v)).rounded(); };
+  return std::ranges::any_of(c.triangulation.faces(), [&](const Triple& face) {
+    const auto has = [&](Index site) { return site == no_index || std::ranges::count(face, site); };
+    if (!std::ranges::all_of(location.sites, has)) return false;
+    const std::array<RealVector, 3> x = {direction(face[0]), direction(face[1]),
+                                         direction(face[2])};
+    double shortest = 2;
+    double height = 2;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const RealVector& a = x[(i + 1) % 3];
+      const RealVector normal = test::cross(a, x[(i + 2) % 3]);
+      shortest = std::min(shortest, length(a - x[(i + 2) % 3]));
+      height = std::min(height, std::abs(test::dot(x[i], normal).rounded()) / length(normal));
+    }
+    return height <= 0x1p-49 && shortest > 0x1p-29;
+  });
+}
+
 TEST(interpolation_linear, weights_are_right_for_every_kind_of_sites) {
   std::set<Where> met;
   for_each_interpolation_case(40, [&met](const InterpolationCase& c) {
@@ -64,7 +90,10 @@ TEST(interpolation_linear, weights_are_right_for_every_kind_of_sites) {
       const std::string name = c.name + " target " + std::to_string(t);
       met.insert(locations[t].where);
       const WeightRow row = row_of(weights, t);
-      expect_exact(row, exact_weights(locations[t], c.set, c.targets[t]), 1e-13, name);
+      if (locations[t].face == no_index || locations[t].where == Where::vertex ||
+          !is_flat(c, locations[t])) {
+        expect_exact(row, exact_weights(locations[t], c.set, c.targets[t]), 1e-13, name);
+      }
       for (const double weight : row.values) ASSERT_GE(weight, 0) << name;
       if (row.values.empty()) continue;
       const WeightErrors errors = weight_errors(row, c.set, c.targets[t]);

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "interpolation/flat_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "exact/vector.h"
+#include "interpolation/linear.h"
+
+namespace rondel::interpolation {
+namespace {
+
+using topology::next_corner;
+using topology::previous_corner;
+
+// Returns the distance of c from the great circle through c + to_a and c + to_b, times the sine of
+// their angle, as det(c, to_a, to_b).
+double height_times_side(const exact::SplitPoint& c, const Vec& to_a, const Vec& to_b) {
+  return std::abs(dot(exact::to_vector(c.hi), cross(to_a, to_b)));
+}
+
+// Returns the sine of the angle between a and b, of which the steps from a third point are given.
+double sine_between(const exact::SplitPoint& a, const Vec& to_a, const Vec& to_b) {
+  return norm(cross(exact::to_vector(a.hi), to_b - to_a));
+}
+
+}  // namespace
+
+// A flat face has a corner c between the other two. Where all three sides are longer than 90 degrees
+// and on one great circle, the face is half of the sphere, and no corner is between others.
+std::optional<unsigned> FlatFaces::flat_side(Index face) const {
+  const auto& v = (*mesh_)[face].vertex;
+  const std::array<Vec, 3> sides = {step(units_[v[1]], units_[v[2]]),
+                                    step(units_[v[2]], units_[v[0]]),
+                                    step(units_[v[0]], units_[v[1]])};
+  std::array<double, 3> squares{};
+  for (unsigned i = 0; i < 3; ++i) squares[i] = dot(sides[i], sides[i]);
+  if (std::ranges::min(squares) <= min_flat_side * min_flat_side) return std::nullopt;
+  const auto longest = static_cast<unsigned>(std::ranges::max_element(squares) - squares.begin());
+  const unsigned a = next_corner[longest];
+  const unsigned b = previous_corner[longest];
+  const Vec to_a = sides[b];
+  const Vec to_b = -1.0 * sides[a];
+  if (dot(to_a, to_b) >= 0) return std::nullopt;
+  const double sine = sine_between(units_[v[a]], to_a, to_b);
+  const bool is_flat = height_times_side(units_[v[longest]], to_a, to_b) <= max_flat_height * sine;
+  return is_flat ? std::optional(longest) : std::nullopt;
+}
+
+FlatFaces::FlatFaces(const Triangulation& triangulation, const topology::Mesh& mesh,
+                     std::span<const exact::SplitPoint> units)
+    : triangulation_(&triangulation), mesh_(&mesh), units_(units) {
+  if (triangulation.num_ghost_faces() == 0) return;
+  std::vector<topology::Halfedge> open;  // of solid faces, towards the outside
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    if (!triangulation.is_ghost(f)) continue;
+    for (const topology::Halfedge h : mesh[f].opposite) {
+      if (!triangulation.is_ghost(topology::face_of(h))) open.push_back(h);
+    }
+  }
+  // What is behind the two shorter sides of a flat face is next.
+  while (!open.empty()) {
+    const topology::Halfedge h = open.back();
+    open.pop_back();
+    const Index f = topology::face_of(h);
+    if (contains(f) || flat_side(f) != topology::edge_of(h)) continue;
+    if (empty()) are_flat_.resize(triangulation.num_faces());
+    are_flat_[f] = true;
+    for (const unsigned i :
+         {next_corner[topology::edge_of(h)], previous_corner[topology::edge_of(h)]}) {
+      const topology::Halfedge inside = mesh[f].opposite[i];
+      if (!triangulation.is_ghost(topology::face_of(inside))) open.push_back(inside);
+    }
+  }
+}
+
+Location FlatFaces::on_edge(Index face, unsigned edge) const {
+  const auto& v = (*mesh_)[face].vertex;
+  const auto [low, high] = std::minmax(v[next_corner[edge]], v[previous_corner[edge]]);
+  return {Where::edge, face, {low, high, no_index}};
+}
+
+// Each step leads to a side that is shorter than the one before.
+Location FlatFaces::on_chain(Index face, const exact::SplitPoint& unit) const {
+  for (;;) {
+    const unsigned longest = *flat_side(face);
+    const auto& v = (*mesh_)[face].vertex;
+    const unsigned a = next_corner[longest];
+    const unsigned b = previous_corner[longest];
+    const Vec to_c = step(unit, units_[v[longest]]);
+    const bool is_beside_b = dot(to_c, step(units_[v[a]], units_[v[b]])) < 0;
+    const unsigned exit = is_beside_b ? a : b;
+    const topology::Halfedge inside = (*mesh_)[face].opposite[exit];
+    const Index next = topology::face_of(inside);
+    if (contains(next) && flat_side(next) == topology::edge_of(inside)) {
+      face = next;
+      continue;
+    }
+    const bool is_inner = !triangulation_->is_ghost(next) && !contains(next);
+    return is_inner ? on_edge(next, topology::edge_of(inside)) : on_edge(face, exit);
+  }
+}
+
+std::optional<unsigned> FlatFaces::edge_beside(Index face, const exact::SplitPoint& unit) const {
+  const topology::Face& corners = (*mesh_)[face];
+  for (unsigned i = 0; i < 3; ++i) {
+    if (!contains(topology::face_of(corners.opposite[i]))) continue;
+    const exact::SplitPoint& a = units_[corners.vertex[next_corner[i]]];
+    const exact::SplitPoint& b = units_[corners.vertex[previous_corner[i]]];
+    const Vec to_a = step(unit, a);
+    const Vec to_b = step(unit, b);
+    const double most = max_flat_height * sine_between(a, to_a, to_b);
+    if (dot(to_a, to_b) < 0 && height_times_side(unit, to_a, to_b) <= most) return i;
+  }
+  return std::nullopt;
+}
+
+Location FlatFaces::location_beside(const LocatedTarget& place) const {
+  const Location& location = place.location;
+  if (empty() || location.where != Where::face) return location;
+  const auto edge = edge_beside(location.face, place.unit);
+  return edge ? on_edge(location.face, *edge) : location;
+}
+
+}  // namespace rondel::interpolation
