@@ -44,8 +44,9 @@ struct SpacingsWanted {
   std::span<const Point> corners = {};
 };
 
-/// Reads spacings at places. They are interpolated linearly on the triangulation of the places, and
-/// are those of the nearest place outside of it.
+/// Reads spacings at places. They are interpolated linearly on the triangulation of the places, those
+/// at the nodes of triangles of UGRID (is_ugrid_of_triangles()) in these triangles; and are those of
+/// the nearest place outside. Where triangles of the mesh overlap they do not count, and a remark says so.
 /// \param file  .nc with longitudes and latitudes of a grid or of points, or with the cells of an
 ///              MPAS mesh; a table .csv .tsv; or points, .geojson and what GDAL reads
 /// \param name  the variable, column or property; empty: the only variable
@@ -73,9 +74,10 @@ RONDEL_API SizeFunction read_density(const FileName& file, const std::string& na
 enum class Positive : std::uint8_t { up, down };
 
 /// Reads heights or depths as read_spacings() reads spacings, or the depths of a mesh of triangles
-/// (is_triangle_mesh_file()), and interpolates them linearly at nodes on the triangulation of their
-/// places. Outside of the places the value of the nearest one counts, and a remark says how many nodes
-/// are there.
+/// (is_triangle_mesh_file()), and interpolates them linearly at nodes: in the triangles of a mesh, and
+/// else on the triangulation of their places. A node within 2^-50 radians of one of a mesh has exactly
+/// its depth, and one within 2^-46 of the border of a mesh is on it. Outside of the triangles the
+/// value of the nearest place counts, and a remark says how many nodes are there.
 /// \param positive  up for heights, down for depths. Where the attribute `positive`, or else the
 ///                  `standard_name`, says otherwise, the file is refused
 /// \param nodes  unit vectors

@@ -5,13 +5,13 @@
 // read_spacings(), read_density() and read_heights().
 //
 // The places of a table are its sites; those of a netCDF field are its longitudes and latitudes, or
-// the cells of a mesh. The values are interpolated linearly on the triangulation of the places.
+// the cells of a mesh. The values are interpolated linearly, between the nodes of a mesh of triangles
+// in these, and else on the triangulation of the places.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <numbers>
 #include <utility>
 
 #include "exact/vector.h"
@@ -19,6 +19,7 @@
 #include "formats/cf_reader.h"
 #include "formats/field_columns.h"
 #include "formats/netcdf_cells.h"
+#include "formats/place_values.h"
 #include "formats/sea_floor.h"
 #include "formats/sites_gdal.h"
 #include "formats/unplaced_rows.h"
@@ -27,13 +28,11 @@
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
-#include "map/ring_area.h"
 #include "meshing/size_raster.h"
 #include "rondel/conventions.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
-#include "rondel/interpolate.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/read_cells.h"
 #include "rondel/triangle_files.h"
@@ -46,6 +45,7 @@ namespace {
 struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
+  std::vector<Triple> triangles;     // of a mesh, whose nodes are the places; or none
   std::vector<std::size_t> numbers;  // positions in the file
   std::string variable;              // of netCDF
   std::string units;                 // as the file says, or empty
@@ -162,6 +162,17 @@ Spacings spacings_of_field(const FileName& file, const std::string& name,
   return result;
 }
 
+// Gives values at the nodes of a mesh of UGRID its triangles.
+void add_triangles(const FileName& file, Spacings& spacings) {
+  if (!is_ugrid_of_triangles(file)) return;
+  try {
+    TriangleMesh mesh = read_triangle_mesh(file);
+    if (mesh.points == spacings.places) spacings.triangles = std::move(mesh.triangles);
+  } catch (const FileError&) {
+    // Values have places all the same.
+  }
+}
+
 // Reads spacings from a netCDF file: of a field with coordinates, or of the cells of a mesh. Throws
 // FileError unless exactly one field fits.
 Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
@@ -175,7 +186,10 @@ Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
     if (found.size() > 1)
       throw FileError(file.path + ": it has several fields of numbers: name one");
   }
-  if (found.size() == 1) return std::move(found.front());
+  if (found.size() == 1) {
+    add_triangles(file, found.front());
+    return std::move(found.front());
+  }
   if (name.empty()) throw FileError(file.path + ": it has no field with longitudes and latitudes");
   throw FileError(file.path + ": variable \"" + name +
                   "\" is not one number at each of the places that the file has: longitudes and "
@@ -249,6 +263,7 @@ Spacings depths_of_mesh(const FileName& file, const std::string& name, Positive 
     for (Point& node : result.places) node = normalized(node);
   }
   result.values = std::move(mesh.depths);
+  result.triangles = std::move(mesh.triangles);
   return result;
 }
 
@@ -275,6 +290,7 @@ void drop_missing(const FileName& file, Spacings& spacings, std::vector<std::str
             " no value: it is interpolated between the others", remarks);
   spacings.places.resize(kept);
   spacings.values.resize(kept);
+  if (kept != num_given) spacings.triangles.clear();  // some of them have corners without values
 }
 
 // Returns the kilometers in one unit of length; `without_units` if there is none. Throws FileError
@@ -300,60 +316,8 @@ void require_positive(const FileName& file, const Spacings& heights, Positive wa
       ", are wanted: " + (wanted == Positive::down ? "--elevation reads it" : "--depth reads it"));
 }
 
-// Values that are linear on the triangulation of their places, and beyond it those of the nearest
-// one.
-class LinearValues {
- public:
-  LinearValues(const Spacings& given, const Execution& execution, std::vector<std::string>* remarks)
-      : given_(given),
-        execution_(execution),
-        triangulation_(delaunay(Sites::view(given.places), {}, execution)),
-        interpolator_(triangulation_) {
-    const auto num_other =
-        std::ranges::count_if(triangulation_.duplicates(), [&](const Duplicate& duplicate) {
-          return given.values[duplicate.site] != given.values[duplicate.representative];
-        });
-    remark_on(
-        static_cast<std::size_t>(num_other), given.values.size(), "is", "are",
-        " at the place of another one with another value: of each place the first value counts",
-        remarks);
-  }
-
-  [[nodiscard]] std::vector<double> at(std::span<const Point> places) const {
-    return interpolator_.values(
-        given_.values, places, {.method = Method::linear, .outside = Outside::nearest}, execution_);
-  }
-
-  // Returns the share of the sphere that the triangles cover.
-  [[nodiscard]] double share_of_sphere() const {
-    if (triangulation_.dimension() < 2) return 0;
-    if (triangulation_.num_ghost_faces() == 0) return 1;
-    double area = 0;
-    for (Index f = 0; f < triangulation_.num_faces(); ++f) {
-      if (triangulation_.is_ghost(f)) continue;
-      const auto& [a, b, c] = triangulation_.faces()[f];
-      area += map::area_on_left(
-          std::array<Point, 3>{given_.places[a], given_.places[b], given_.places[c]});
-    }
-    return area / (4 * std::numbers::pi);
-  }
-
-  [[nodiscard]] std::size_t num_outside(std::span<const Point> places) const {
-    const std::vector<double> values = interpolator_.values(
-        given_.values, places, {.method = Method::linear, .outside = Outside::missing}, execution_);
-    return static_cast<std::size_t>(
-        std::ranges::count_if(values, [](double value) { return std::isnan(value); }));
-  }
-
- private:
-  const Spacings& given_;
-  const Execution& execution_;
-  Triangulation triangulation_;
-  Interpolator interpolator_;
-};
-
 // Says which part of the sphere has places, if the mesh goes beyond it.
-void remark_on_reach(const LinearValues& values, std::span<const Point> corners,
+void remark_on_reach(const formats::PlaceValues& values, std::span<const Point> corners,
                      std::vector<std::string>* remarks) {
   if (remarks == nullptr) return;
   const double share = values.share_of_sphere();
@@ -424,7 +388,8 @@ std::string text_of_step(const SizeRaster& raster) {
 // Returns values at places as a function on a raster.
 SizeFunction function_of(const Spacings& spacings, SizeRaster raster, const Execution& execution,
                          std::vector<std::string>* remarks, const SpacingsWanted& wanted) {
-  const LinearValues values(spacings, execution, remarks);
+  const formats::PlaceValues values(spacings.places, spacings.values, spacings.triangles, execution,
+                                    remarks);
   remark_on_reach(values, wanted.corners, remarks);
   const auto made = [&] {
     return SizeFunction::from_function(
@@ -504,7 +469,8 @@ std::vector<double> read_heights(const FileName& file, const std::string& name, 
   require_positive(file, heights, positive);
   drop_missing(file, heights, remarks);
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
-  const LinearValues values(heights, execution, remarks);
+  const formats::PlaceValues values(heights.places, heights.values, heights.triangles, execution,
+                                    remarks);
   std::vector<double> result = values.at(nodes);
   if (const std::size_t n = remarks == nullptr ? 0 : values.num_outside(nodes); n > 0) {
     remarks->push_back(std::to_string(n) + " of " + std::to_string(nodes.size()) +

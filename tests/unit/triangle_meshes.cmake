@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(triangle_mesh_test
+  formats/mesh_depths_test.cpp
   formats/triangle_faults_test.cpp
   formats/triangle_files_test.cpp
   map/longitudes_test.cpp
