@@ -10,6 +10,7 @@
 #include "column_values.h"
 #include "mesh_spacing.h"
 #include "report.h"
+#include "rondel/constrained_features.h"
 #include "rondel/error.h"
 #include "validate.h"
 
@@ -87,6 +88,23 @@ void require_least_depth(const std::optional<double>& least_depth, const std::st
   }
   if (number == 0) return;
   tell(source, {"--least-depth: " + count(number, "node is", "nodes are") + " less deep in it"});
+}
+
+void leave_out_flat_triangles(const CommonOptions& common, std::span<const Point> sites,
+                              std::span<const LonLat> positions,
+                              std::span<const std::array<Index, 2>> constraints,
+                              const std::string& source, std::vector<Triple>& triangles) {
+  if (!mesh::has_nodes_in_degrees(common.target())) return;
+  const std::vector<LonLat> short_ones =
+      positions.empty() ? short_lonlats(sites) : std::vector<LonLat>();
+  const std::size_t number =
+      mesh::leave_out_flat(positions.empty() ? short_ones : positions, triangles, constraints);
+  if (number == 0) return;
+  const std::string flat = count(number, "triangle", "triangles") + " on the border ";
+  const std::string why = " area in degrees, as the sites are on one line";
+  const char* const have = number == 1 ? "has" : "have";
+  if (triangles.empty()) throw FileError(source + ": no triangle has an" + why);
+  tell(source, {flat + (number == 1 ? "is" : "are") + " left out, which " + have + " no" + why});
 }
 
 void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf,

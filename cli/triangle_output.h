@@ -11,8 +11,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +46,16 @@ CLI::Option* add_least_depth_option(CLI::App& parser, std::optional<double>& lea
 /// \param source  the file that the depths are from
 void require_least_depth(const std::optional<double>& least_depth, const std::string& source,
                          mesh::TriangleMesh& mesh);
+
+/// Leaves out triangles on the border that OUTPUT cannot have, as they have no area in its degrees, and
+/// tells how many. \throws FileError with the name of the file if none is left
+/// \param positions  the sites in degrees, or empty: those of `sites`
+/// \param constraints  edges that stay
+/// \param source  the file of the sites
+void leave_out_flat_triangles(const CommonOptions& common, std::span<const Point> sites,
+                              std::span<const LonLat> positions,
+                              std::span<const std::array<Index, 2>> constraints,
+                              const std::string& source, std::vector<Triple>& triangles);
 
 /// Writes OUTPUT, and tells what its format does not hold, and of nodes that models refuse. \throws FileError with the name of the file
 /// that the triangles are from

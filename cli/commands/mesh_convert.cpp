@@ -39,6 +39,7 @@ mesh::TriangleMesh triangles_of_sites(const CommonOptions& common, Job& job) {
     if (!triangulation.is_ghost(f)) solid.push_back(triangulation.faces()[f]);
   }
   if (solid.empty()) throw FileError(common.input + ": the sites have no triangles");
+  leave_out_flat_triangles(common, table.sites, table.positions, {}, common.input, solid);
   return with_places(table, [&] {
     return mesh::triangle_mesh(table.sites, table.positions, solid, std::nullopt, depths);
   });
@@ -112,7 +113,8 @@ Command add_mesh_convert_command(CLI::App& group) {
       "Triangles stay what they are: nodes, triangles, depths, and the border in open, land and\n"
       "island segments. netCDF in and triangles out is UGRID, and so is .nc of triangles; sites "
       "get\n"
-      "their Delaunay triangles, and the depths of their column 'depth'.\n\n"
+      "their Delaunay triangles, without those on the border that have no area in degrees, as on\n"
+      "a meridian, and the depths of their column 'depth'.\n\n"
       "Examples:\n"
       "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"
       "  rondel mesh convert sites.npy -o mesh.nc --format ugrid\n"

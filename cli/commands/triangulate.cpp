@@ -156,9 +156,11 @@ void tell_of_lost_depths(const SiteTable& table, std::span<const Duplicate> dupl
 }
 
 // Writes solid faces as a mesh: those in `inside`, or all. Edges that are constraints are coast.
-void write_for_model(const CommonOptions& common, const Plan& plan,
-                     const ConstrainedTriangulation& result, const std::vector<Index>* inside,
-                     std::span<const double> depths, Job& job) {
+// Returns the number of faces.
+std::size_t write_for_model(const CommonOptions& common, const Plan& plan,
+                            const ConstrainedTriangulation& result,
+                            const std::vector<Index>* inside, std::span<const double> depths,
+                            Job& job) {
   const Triangulation& triangulation = result.triangulation;
   std::vector<Triple> triangles;
   for (Index f = 0; f < triangulation.num_faces(); ++f) {
@@ -167,10 +169,13 @@ void write_for_model(const CommonOptions& common, const Plan& plan,
     if (is_wanted) triangles.push_back(triangulation.faces()[f]);
   }
   if (triangles.empty()) throw FileError(plan.table.name + ": there are no triangles");
+  leave_out_flat_triangles(common, plan.table.sites, plan.table.positions, result.edges,
+                           plan.table.name, triangles);
   tell_of_lost_depths(plan.table, triangulation.duplicates(), depths);
   const mesh::TriangleMesh mesh =
       mesh::triangle_mesh(plan.table.sites, plan.table.positions, triangles, result.edges, depths);
   write_triangles_of(common, {}, mesh, plan.table.name, job);
+  return mesh.triangles.size();
 }
 
 // Throws FileError for files that cannot be read or written, and constraints that cross; UsageError.
@@ -191,9 +196,10 @@ ExitStatus run_triangulate(TriangulateOptions options) {
   });
   const std::vector<double> depths = depths_of_sites(options.common, plan.table);
   const Triangulation& triangulation = result.triangulation;
+  std::size_t num_for_model = 0;
   if (is_for_model(options.common)) {
-    write_for_model(options.common, plan, result, options.is_inside ? &inside : nullptr, depths,
-                    job);
+    num_for_model = write_for_model(options.common, plan, result,
+                                    options.is_inside ? &inside : nullptr, depths, job);
   }
   job.time(Stage::write, [&] {
     if (is_for_model(options.common)) return;
@@ -210,7 +216,9 @@ ExitStatus run_triangulate(TriangulateOptions options) {
   const bool has_ghosts = !options.is_inside && !is_for_model(options.common);
   const std::size_t num_ghosts = has_ghosts ? triangulation.num_ghost_faces() : 0;
   const std::size_t num_solid = triangulation.num_faces() - triangulation.num_ghost_faces();
-  const std::size_t num_faces = options.is_inside ? inside.size() : num_solid + num_ghosts;
+  const std::size_t num_faces = is_for_model(options.common) ? num_for_model
+                                : options.is_inside          ? inside.size()
+                                                             : num_solid + num_ghosts;
   const double seconds = job.seconds().total;
   job.report(nlohmann::ordered_json{{"sites", num_sites},
                                     {"added_sites", num_added},
@@ -280,7 +288,8 @@ Command add_triangulate_command(CLI::App& tool) {
       "each other. It is exact and unique. Sites are the points of features, their corners and\n"
       "those that straight lines in longitude and latitude need; each place is one site. A mesh\n"
       "of ocean models has the depths of a column 'depth' beside the sites of --constraints, and\n"
-      "longitudes from -180 to 180 or in the turn of the input, as from 0 to 360.\n\n"
+      "longitudes from -180 to 180 or in the turn of the input, as from 0 to 360. Triangles on\n"
+      "its border that have no area in degrees, as on a meridian, are left out.\n\n"
       "Examples:\n"
       "  rondel triangulate coast.geojson -o mesh.ply\n"
       "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"

@@ -36,6 +36,9 @@ RONDEL_API bool is_ugrid_of_triangles(const FileName& file);
 /// `ugrid` or the ending .nc .nc4 .ug.
 RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 
+/// True if write_triangle_mesh() writes longitudes and latitudes: in all formats but Gmsh's.
+RONDEL_API bool has_nodes_in_degrees(const FileName& file);
+
 /// Writes a mesh of triangles: in the formats of is_triangle_mesh_file(), and as netCDF by the
 /// conventions of UGRID. Equal meshes give equal bytes. Files appear complete or not at all, for
 /// FESOM all three together, in a folder that is made if there is none.
@@ -43,7 +46,7 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 /// 1. Numbers have the shortest digits that give back the same bits. Degrees are `positions` or,
 ///    where the mesh has none, those with few decimals where these are the node's. Where rounding
 ///    them turns a sliver over, one of its nodes moves by less than 1e-12 degrees, so that triangles are
-///    counterclockwise by the numbers in the file. Gmsh's x, y, z are `points`, of the length that
+///    counterclockwise on the sphere by the numbers in the file. Gmsh's x, y, z are `points`, of the length that
 ///    they have.
 /// 2. What a format cannot hold is left out: ADCIRC's numbers in all but ADCIRC's and SCHISM's files
 ///    and UGRID; `levels` in all but FESOM's; kinds and order of segments in FESOM's, which marks
@@ -53,7 +56,10 @@ RONDEL_API bool can_write_triangle_mesh(const FileName& file);
 ///    without levels they are 0, half of the largest depth, and the largest depth.
 /// \param remarks  gets a sentence for all that the format does not hold
 /// \throws InvalidInput if there are no triangles; as require_valid() does; (the position of the
-///         triangle) if one has no area in degrees all the same; for FESOM (the node) if a depth is negative
+///         triangle) if one has no area in degrees all the same: is turned over on the sphere, or, but
+///         for UGRID, whose readers are on the sphere, has its corners on one line of the plane of
+///         longitude and latitude, by exact arithmetic (leave_out_flat() leaves out those on the
+///         border); for FESOM (the node) if a depth is negative
 /// \throws FileError for other endings, and if the system refuses
 RONDEL_API void write_triangle_mesh(const FileName& file, const TriangleMesh& mesh,
                                     const NetcdfOptions& netcdf = {},

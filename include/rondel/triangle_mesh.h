@@ -110,6 +110,21 @@ triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
               const std::optional<std::span<const std::array<Index, 2>>>& coast = std::nullopt,
               std::span<const double> depths = {});
 
+/// Leaves out triangles on the border that have no area in the plane of longitude and latitude, where
+/// models compute, or are clockwise there: as three nodes of one meridian, which become slivers on the
+/// hull of a triangulation when their unit vectors are rounded, or of one parallel. A triangle is left
+/// out if its longest side in degrees is on the border and no constraint, repeatedly, so that those
+/// behind it are next; one with an inner longest side, a corner at a pole or a pole inside stays. Signs
+/// are exact by the numbers given, but where longitudes of a triangle are in different turns.
+/// \param positions  the nodes in degrees, as a file will have them
+/// \param triangles  counterclockwise seen from outside; those that stay keep their order
+/// \param constraints  edges that stay, in either direction
+/// \return the number of triangles left out
+/// \throws InvalidInput (the position of the triangle) if a corner is no node
+RONDEL_API std::size_t leave_out_flat(std::span<const LonLat> positions,
+                                      std::vector<Triple>& triangles,
+                                      std::span<const std::array<Index, 2>> constraints = {});
+
 /// Checks what TriangleMesh promises.
 /// \throws InvalidInput (the position of the node, triangle or segment, which the message names) for
 ///         arrays whose lengths do not fit; for numbers that are not finite, points at the center,

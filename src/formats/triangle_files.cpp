@@ -19,6 +19,7 @@
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
+#include "meshing/flat_triangles.h"
 #include "meshing/sound_positions.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -156,6 +157,10 @@ bool is_ugrid_of_triangles(const FileName& file) {
   }
 }
 
+bool has_nodes_in_degrees(const FileName& file) {
+  return can_write_triangle_mesh(file) && !is_gmsh(file);
+}
+
 bool can_write_triangle_mesh(const FileName& file) {
   return is_triangle_mesh_file(file) || is_ugrid_file(file);
 }
@@ -170,6 +175,9 @@ void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
   const formats::MeshOfFile content = {
       mesh, is_in_space ? std::vector<LonLat>() : meshing::sound_positions(mesh), execution};
   const OceanFormat* const format = ocean_format(name);
+  if (!is_in_space && (format != nullptr || is_fesom(name))) {
+    meshing::require_area_in_degrees(content.positions, mesh.triangles);
+  }
   if (remarks != nullptr) {
     const bool has_types = format == nullptr || format->write == &formats::write_gr3;
     *remarks = lost_in(is_fesom(name), is_in_space, !is_fesom(name) && has_types, mesh);

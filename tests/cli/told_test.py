@@ -112,7 +112,11 @@ class Properties(Told):
         message = "sea.geojson: nothing is left for triangles: the land covers the area"
         self.refuse(1, message, *mesh, "sea.geojson", "--coast", "sea.geojson")
         for ending in ("14", "ply", "geojson"):
-            self.succeed("triangulate", "sea.geojson", "-o", f"mesh.{ending}", told=of_sea)
+            told = of_sea
+            if ending == "14":  # the northern side is a parallel, north of which the hull goes
+                told = ("rondel: sea.geojson: 63 triangles on the border are left out, which have no area in "
+                        "degrees, as the sites are on one line\n" + of_sea)
+            self.succeed("triangulate", "sea.geojson", "-o", f"mesh.{ending}", told=told)
         self.succeed("triangulate", "sea.geojson", "-o", "faces.npy")
 
     def test_with_a_zero_are_refused(self):

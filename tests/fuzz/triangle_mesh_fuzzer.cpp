@@ -53,6 +53,9 @@ void expect_the_same_again(const TriangleMesh& mesh, const char* format) {
     // thin triangles may become flat. Gmsh's points were not on a sphere.
     const bool has_degrees = !mesh.positions.empty();
     require(has_degrees == (format[0] == 'g' && format[1] == 'm') || !has_degrees, error.what());
+  } catch (const InvalidInput& error) {
+    const std::string what = error.what();
+    require(what.find("area in degrees") != std::string::npos, what);
   }
 }
 
@@ -75,6 +78,8 @@ void use_mesh(const TriangleMesh& mesh) {
   const FileName folder(std::string(".rondel-fuzz-fesom-not-there/") + "x", "ply");
   require(!mesh::can_write_triangle_mesh(folder) && !mesh::is_triangle_mesh_file(folder),
           "no format");
+  require(mesh::has_nodes_in_degrees({"a", "gr3"}) && !mesh::has_nodes_in_degrees({"a", "gmsh"}),
+          "Gmsh's nodes are in space");
 }
 
 void expect_mesh_or_message(std::string bytes, const char* format) {
@@ -133,6 +138,47 @@ void test_faces(const std::uint8_t* data, std::size_t size) {
                mesh::boundary_segments(mesh.points, mesh.triangles)});
 }
 
+// Sites of whole degrees, whose triangles are flat or not by integers: on the border none is left that
+// could be left out, inside all stay, and a file has triangles with an area or is refused.
+void test_flat_triangles(const std::uint8_t* data, std::size_t size) {
+  ByteSource source(data, size);
+  std::vector<LonLat> positions;
+  while (!source.is_empty() && positions.size() < 40) {
+    const auto degree = [&] { return static_cast<double>(source.below(9)) - 4; };
+    const double lon = degree();
+    positions.push_back({10 * lon, 10 * degree()});
+  }
+  const Triangulation triangulation = delaunay(unit_vectors(positions));
+  std::vector<Triple> faces;
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    if (!triangulation.is_ghost(f)) faces.push_back(triangulation.faces()[f]);
+  }
+  const std::vector<Triple> all = faces;
+  const std::size_t number = mesh::leave_out_flat(positions, faces);
+  require(faces.size() + number == all.size(), "each triangle stays or is left out");
+  const auto area = [&](const Triple& t) {
+    const LonLat& a = positions[t[0]];
+    const LonLat& b = positions[t[1]];
+    const LonLat& c = positions[t[2]];
+    return (b.lon_deg - a.lon_deg) * (c.lat_deg - a.lat_deg) -
+           (b.lat_deg - a.lat_deg) * (c.lon_deg - a.lon_deg);
+  };
+  for (const Triple& t : all) {
+    const bool stays = std::ranges::find(faces, t) != faces.end();
+    require(stays || area(t) <= 0, "a triangle with an area stays");
+  }
+  if (faces.empty()) return;
+  const bool has_flat = std::ranges::any_of(faces, [&](const Triple& t) { return area(t) == 0; });
+  const TriangleMesh mesh = mesh::triangle_mesh(unit_vectors(positions), positions, faces);
+  bool is_refused = false;
+  try {
+    (void)written(mesh, "gr3");
+  } catch (const InvalidInput&) {
+    is_refused = true;
+  }
+  require(is_refused == has_flat, "a file without flat triangles is written");
+}
+
 // A file of a square with an island, some bytes of which are changed.
 void test_changed_file(const std::uint8_t* data, std::size_t size) {
   const std::vector<LonLat> positions = {{0, 0}, {9, 0}, {0, 9}, {2, 2}, {4, 2}, {2, 4}};
@@ -161,5 +207,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   test_changed_file(data, size);
   test_faces(data, size);
+  test_flat_triangles(data, size);
   return 0;
 }

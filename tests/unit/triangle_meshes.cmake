@@ -9,6 +9,7 @@ rondel_add_test(triangle_mesh_test
   meshing/domain_crossings_test.cpp
   meshing/domain_small_rings_test.cpp
   meshing/domain_triangles_test.cpp
+  meshing/flat_triangles_test.cpp
   meshing/sound_positions_test.cpp
   meshing/triangle_meshes.cpp
   meshing/triangle_picture_test.cpp

@@ -226,7 +226,8 @@ class TriangleMesh:
         OSError
             If the file cannot be written, or no format has such a name.
         InvalidInput
-            If a depth is negative and the format is 'fesom'.
+            If a depth is negative and the format is 'fesom'; or, in formats with degrees but for
+            'ugrid', if a triangle has no area in them, as three nodes of one meridian have none.
 
         Warns
         -----
