@@ -92,6 +92,16 @@ TriangleMesh mesh_of_triangles(const PointsIn& points, const PairsIn& positions,
   return mesh;
 }
 
+// Returns the triangles that leave_out_flat() keeps.
+ArrayOut<std::int32_t> without_flat(const PairsIn& positions, const TriplesIn& triangles,
+                                    const IndexPairsIn& constraints) {
+  const auto given = rows_of<Triple>(triangles);
+  std::vector<Triple> kept(given.begin(), given.end());
+  mesh::leave_out_flat(rows_of<LonLat>(positions), kept,
+                       rows_of<std::array<Index, 2>>(constraints));
+  return to_array<std::int32_t>(std::move(kept));
+}
+
 FileName file_of(const std::string& path, const std::string& format) { return {path, format}; }
 
 std::tuple<TriangleMesh, std::vector<std::string>> triangles_of_file(const std::string& path,
@@ -176,6 +186,8 @@ void add_triangle_meshes(nb::module_& module) {
              nb::arg("positions").noconvert(), nb::arg("triangles").noconvert(),
              nb::arg("coast").noconvert().none(), nb::arg("depths").noconvert(),
              nb::arg("levels").noconvert());
+  module.def("without_flat", &without_flat, nb::arg("positions").noconvert(),
+             nb::arg("triangles").noconvert(), nb::arg("constraints").noconvert());
   module.def("triangles_of_domain", &triangles_of_domain, nb::arg("coast"), nb::arg("area").none(),
              nb::arg("lines"), nb::arg("spacings").noconvert(), nb::arg("steps"),
              nb::arg("gradient"), nb::arg("tolerance").none(), nb::arg("weld").none(),

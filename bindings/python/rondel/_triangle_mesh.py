@@ -227,7 +227,8 @@ class TriangleMesh:
             If the file cannot be written, or no format has such a name.
         InvalidInput
             If a depth is negative and the format is 'fesom'; or, in formats with degrees but for
-            'ugrid', if a triangle has no area in them, as three nodes of one meridian have none.
+            'ugrid', if a triangle has no area in them, as three nodes of one meridian have none
+            (`leave_out_flat`).
 
         Warns
         -----
@@ -283,6 +284,52 @@ def _rows_of_indices(values: ArrayLike, columns: int, name: str) -> IntArray:
             raise ValueError(f"{name} must have shape (n, {columns}), not {array.shape}")
         return np.empty((0, columns), np.int32)
     return as_indices(array.ravel(), name).reshape(-1, columns)
+
+
+def leave_out_flat(
+    points: ArrayLike, triangles: ArrayLike, *, constraints: ArrayLike | None = None
+) -> IntArray:
+    """Leaves out triangles on the border that have no area in longitude and latitude.
+
+    Models compute in this plane, where three nodes of one meridian, or of one parallel, have no
+    area, whatever they have on the sphere; a triangulation of points has such slivers where its
+    border is straight. They are left out from the border inwards, by the exact sign of their area.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2)
+        The nodes: longitude and latitude in degrees, as the file will have them.
+    triangles : array_like of int, shape (m, 3)
+        The nodes of each triangle, counterclockwise seen from outside.
+    constraints : array_like of int, shape (k, 2), optional
+        Edges that stay, as pairs of nodes.
+
+    Returns
+    -------
+    ndarray of int, shape (l, 3)
+        The triangles that are left, in their order. One whose longest side in degrees is inside, or
+        a constraint, stays, and so does one with a corner at a pole or a pole inside.
+
+    Raises
+    ------
+    InvalidInput
+        If a corner is no node. Its `index` is that of the triangle.
+
+    Examples
+    --------
+    >>> import rondel.mesh
+    >>> lonlat = [[0, 0], [5, 5], [0, 10], [0, 5]]
+    >>> rondel.mesh.leave_out_flat(lonlat, [[0, 1, 3], [1, 2, 3], [0, 3, 2]]).tolist()
+    [[0, 1, 3], [1, 2, 3]]
+
+    """
+    return _core.without_flat(
+        as_rows(points, 2, "points"),
+        _rows_of_indices(triangles, 3, "triangles"),
+        np.empty((0, 2), np.int32)
+        if constraints is None
+        else _rows_of_indices(constraints, 2, "constraints"),
+    )
 
 
 def read_triangles(

@@ -26,6 +26,7 @@ from ._triangle_mesh import (
     Boundary,
     TriangleMesh,
     TriangleQuality,
+    leave_out_flat,
     read_triangles,
     triangles,
 )
@@ -45,6 +46,7 @@ __all__ = [
     "TriangleQuality",
     "equal_area",
     "from_points",
+    "leave_out_flat",
     "read",
     "read_triangles",
     "scvt",

@@ -337,3 +337,27 @@ def test_longitudes_are_in_the_turn_of_the_input(west, kind):
     made = rondel.constrained_delaunay(area)
     assert (made.lonlat[:, 0].min(), made.lonlat[:, 0].max()) == (west, west + 30)
     assert np.array_equal(pickle.loads(pickle.dumps(made)).lonlat, made.lonlat)
+
+
+def test_flat_triangles_are_left_out(tmp_path):
+    steps = np.linspace(-20, 20, 9)
+    lonlat = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2)
+    points = rondel.unit_vectors(*lonlat.T)
+    faces = rondel.delaunay(points).simplices
+    faces = faces[np.linalg.det(points[faces]) > -1e-9]  # the others are beyond the hull
+
+    def areas(triangles):
+        a, b, c = np.moveaxis(lonlat[triangles], 1, 0)
+        return np.linalg.det(np.stack([b - a, c - a], axis=-1))
+
+    flat = areas(faces) == 0
+    assert flat.any()
+    with pytest.raises(rondel.InvalidInput, match="has no area in degrees"):
+        TriangleMesh(lonlat, faces).write(tmp_path / "flat.14")
+    kept = rondel.mesh.leave_out_flat(lonlat, faces, constraints=[[0, 80]])
+    assert np.array_equal(kept, faces[~flat])
+    assert areas(kept).sum() == pytest.approx(2 * 40 * 40)
+    TriangleMesh(lonlat, kept).write(tmp_path / "mesh.14")
+    assert np.array_equal(read_triangles(tmp_path / "mesh.14").triangles, kept)
+    with pytest.raises(rondel.InvalidInput, match="triangle 1 has a corner that is no node"):
+        rondel.mesh.leave_out_flat(lonlat, [[0, 1, 9], [0, 1, 81]])
