@@ -496,7 +496,8 @@ def _with_descriptions(made: Any, wanted: Places) -> Any:
     renamed = {}
     found = {}
     for name, item in wanted.described().items():
-        if name in made.coords and made.coords[name].dims == item.dims:
+        is_there = name in made.coords and made.coords[name].dims == item.dims
+        if is_there and name not in wanted.coordinates:
             continue  # it came with the longitudes and latitudes
         new = str(name)
         while new in taken and (new,) != item.dims:

@@ -721,13 +721,18 @@ def _paired(lon: Any, lat: Any) -> xarray.Dataset:
 
 
 def _of_table(table: Any) -> tuple[xarray.Dataset, set[str]]:
-    """The points of a DataFrame: by its columns, or of a GeoDataFrame with points; and the names of
-    the columns that have them.
+    """The points of a GeoDataFrame, whatever columns it has, or of a DataFrame by its columns; and
+    the names of the columns that have them.
     """
+    if is_of_geopandas(table) and getattr(table, "_geometry_column_name", None) in table.columns:
+        points = in_degrees(table.geometry)
+        if not points.geom_type[points.notna()].eq("Point").all():  # a missing one is nowhere
+            raise TypeError(
+                "geometries that are places must be points; rondel.polygons() makes cells"
+            )
+        return _paired(points.x.to_numpy(), points.y.to_numpy()), {str(table.geometry.name)}
     found = {}
     taken = set()
-    if is_of_geopandas(table) and getattr(table, "_geometry_column_name", None) in table.columns:
-        taken.add(str(table.geometry.name))
     for kind, names in _COLUMNS.items():
         columns = [name for name in table.columns if str(name).lower() in names]
         if len(columns) > 1:
@@ -735,14 +740,6 @@ def _of_table(table: Any) -> tuple[xarray.Dataset, set[str]]:
             raise ValueError(f"the columns {texts} may be the {kind}: leave one")
         found[kind] = table[columns[0]].to_numpy() if columns else None
         taken |= {*map(str, columns)}
-    is_nameless = found["lon"] is None and found["lat"] is None
-    if is_nameless and is_of_geopandas(table) and hasattr(table, "geometry"):
-        points = in_degrees(table.geometry)
-        if not points.geom_type[points.notna()].eq("Point").all():  # a missing one is nowhere
-            raise TypeError(
-                "geometries that are places must be points; rondel.polygons() makes cells"
-            )
-        found = {"lon": points.x.to_numpy(), "lat": points.y.to_numpy()}
     for kind, column in found.items():
         if column is None:
             raise ValueError(f"no column of the table has the {MARKS[kind][0]}s ({kind})")

@@ -23,9 +23,12 @@ _PRESSURES = ("Pa", "hPa", "mbar", "millibar", "bar", "dbar")
 
 
 def columns_of(table: Any, taken: set[str], dim: Hashable) -> dict[Hashable, xarray.Variable]:
-    """The columns of a DataFrame but for those that are coordinates. A warning names others than
-    texts, numbers, booleans and times.
+    """The columns of a DataFrame, and an index with names, but for those that are coordinates. A
+    warning names others than texts, numbers, booleans and times.
     """
+    names = [name for name in table.index.names if name is not None]
+    if names and not {*names} & {*table.columns}:
+        table = table.reset_index(names)
     made: dict[Hashable, xarray.Variable] = {}
     lost = []
     for name in table.columns:

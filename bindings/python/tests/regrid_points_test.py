@@ -90,6 +90,31 @@ def test_frames_of_points_are_points():
     assert "geometry" not in found.coords
 
 
+def test_geometries_count_and_columns_of_degrees_do_not():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    for columns in ({"lon": [99.0] * 4, "Lat": [-80.0] * 4}, {"lon": [99.0] * 4}):
+        frame = geopandas.GeoDataFrame(columns, geometry=shapely.points(POINTS), crs=4326)
+        with pytest.warns(UserWarning, match="gave way to fields: lon is lon_"):
+            found = rondel.regrid(fields(), frame, "bilinear")
+        expect_values(found)
+        assert found.lon_.values.tolist() == [99.0] * 4
+        value = rondel.Regridder(fields(), frame, "bilinear")(fields().oro)
+        np.testing.assert_array_equal(value, found.oro)
+
+
+def test_an_index_with_a_name_is_a_column():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame({"lon": POINTS[:, 0], "lat": POINTS[:, 1]})
+    table.index = pandas.Index(list("abcd"), name="station")
+    assert rondel.regrid(fields(), table, "bilinear").station.values.tolist() == list("abcd")
+    table.index = pandas.MultiIndex.from_arrays([list("xyxy"), [1, 2, 3, 4]], names=["net", "k"])
+    found = rondel.regrid(fields(), table, "bilinear")
+    expect_values(found)
+    assert found.net.values.tolist() == list("xyxy")
+    assert found.k.values.tolist() == [1, 2, 3, 4]
+
+
 def test_methods_over_cells_are_refused():
     lon, lat = POINTS.T
     for method in (None, "conservative", "conservative_2nd", "largest_share"):
