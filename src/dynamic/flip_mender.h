@@ -65,7 +65,8 @@ class FlipMender {
   // Returns the late vertices, or nothing if it gave up: then the points of some places are still the
   // old ones, and the hull means nothing.
   std::optional<std::vector<LateVertex>> run(double square, unsigned threads) {
-    if (!look_at_faces(square, threads) || !make_positive()) return std::nullopt;
+    if (!look_at_faces(square, threads)) return std::nullopt;
+    if (is_many(inverted_.size(), many_inverted) || !make_positive()) return std::nullopt;
     for (const LateVertex& vertex : moved_back_) push_star(vertex.place);
     if (!flip_all()) return std::nullopt;
     // What could not move at first may when its neighbors have.
@@ -85,7 +86,9 @@ class FlipMender {
   }
 
  private:
-  // A build takes less time where more than one vertex of so many goes back, or is late.
+  // A build takes less time where there is more than one inverted face for so many vertices (about half
+  // as many vertices are late then), or more than one vertex of so many goes back, or is late.
+  static constexpr std::size_t many_inverted = 16;
   static constexpr std::size_t many_moved_back = 3;
   static constexpr std::size_t many_late = 32;
 
