@@ -68,7 +68,8 @@ using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 /// How work is executed. Its result never depends on it.
 struct Execution {
-  /// The largest number of threads; 0: one for each core; more than 1024 count as 1024.
+  /// The largest number of threads; 0: one for each core; more than 1024 count as 1024. Sites on few
+  /// circles are inserted by one (docs/guide/scaling.md).
   unsigned threads = 0;
   Progress progress{};
   /// A flag. Once it is true, the call throws Interrupted (error.h) soon, at the next piece of a
