@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What stands beside the values at points: columns of tables, and what netCDF says of stations and tracks.
+
+No column goes without a word: it is kept, it gives way to a field, or a line names it. Without netCDF4-python ctest
+says "Skipped".
+"""
+
+import csv
+import importlib.util
+import sys
+import unittest
+
+if importlib.util.find_spec("netCDF4") is None:
+    sys.exit(77)
+import netCDF4
+import numpy as np
+from tool_in_folder import ToolInFolder, add
+
+LOST = "left out, as they describe the places of the target: "
+
+
+class Columns(ToolInFolder):
+    def setUp(self):
+        super().setUp()
+        with netCDF4.Dataset(self.folder / "in.nc", "w", format="NETCDF3_CLASSIC") as file:
+            for name, values, units in (("lat", np.arange(-90.0, 91, 10), "degrees_north"), ("lon", np.arange(0.0, 360, 10), "degrees_east")):
+                file.createDimension(name, len(values))
+                add(file, name, (name,), values, units=units)
+            file.createDimension("time", 2)
+            add(file, "time", ("time",), [0.0, 6], units="hours since 2000-01-01")
+            add(file, "oro", ("lat", "lon"), 1.0)
+            add(file, "t", ("time", "lat", "lon"), 2.0)
+
+    def list_of(self, name, lon=(10.0, 20, 30), lat=(0.0, 10, 20), feature="timeSeries", role="timeseries_id", names=None):
+        """Writes stations with names, if there are any, and returns the open file."""
+        file = netCDF4.Dataset(self.folder / name, "w")
+        file.createDimension("station", len(lon))
+        if feature:
+            file.featureType = feature
+        add(file, "lon", ("station",), np.array(lon, float), units="degrees_east")
+        add(file, "lat", ("station",), np.array(lat, float), units="degrees_north")
+        if names:
+            add(file, "nm", ("station",), np.array(names, object), str, cf_role=role)
+        return file
+
+    def regrid(self, target, output="out.nc4", field="t", status=0):
+        return self.run_tool("regrid", "in.nc", target, "--method", "bilinear", "--value", field, "-o", output, status=status)
+
+    def rows(self, name):
+        with open(self.folder / name, newline="", encoding="utf-8") as file:
+            return list(csv.reader(file))
+
+    def opened(self, name="out.nc4"):
+        file = netCDF4.Dataset(self.folder / name)
+        self.addCleanup(file.close)
+        return file
+
+    def test_columns_give_way_to_fields_in_both_commands(self):
+        (self.folder / "taken.csv").write_text("lon,lat,oro,t\n10,20,7,8\n")
+        fields = ["oro", "t_2000-01-01T00:00:00", "t_2000-01-01T06:00:00"]
+        for command in (("regrid", "in.nc", "taken.csv"), ("interpolate", "in.nc", "--to", "taken.csv")):
+            for ending in ("csv", "nc"):
+                self.assertEqual(self.run_tool(*command, "--method", "bilinear", "-o", f"out.{ending}"), [])
+            header, row = self.rows("out.csv")
+            # In a table the names of times are no other's, so that the column t stays.
+            self.assertEqual(sorted(header[4:]), sorted(fields))
+            self.assertEqual((header[:4], row[:4]), (["lon", "lat", "oro_", "t"], ["10", "20", "7", "8"]))
+            file = self.opened("out.nc")
+            self.assertEqual((file["oro_"][:].tolist(), file["t_"][:].tolist(), file["oro"][:].tolist()), ([7], [8], [1]))
+        self.run_tool("interpolate", "taken.csv", "--value", "oro", "--to", "taken.csv", "--method", "nearest", "-o", "out.csv")
+        self.assertEqual(self.rows("out.csv"), [["lon", "lat", "oro_", "t", "oro"], ["10", "20", "7", "8", "7"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
