@@ -28,16 +28,38 @@
 namespace rondel::formats {
 namespace {
 
-// True for a variable that describes the places along a dimension: texts, the axis of the dimension, and
-// what names places by its role or is listed as a coordinate.
-bool describes_places(const VariableHeader& variable, const std::string& dimension,
-                      const std::set<std::string>& listed) {
+// What a file says of its places as a whole.
+struct ListOfPlaces {
+  CoordinatePair own;                   // the longitudes and latitudes
+  std::vector<std::string> dimensions;  // of both
+  std::set<std::string> listed;         // what an attribute `coordinates` names
+  bool are_sites = false;               // by `featureType`, so that no number is of a cell
+};
+
+bool is_name_of_places(const VariableHeader& variable) {
+  return variable.text("cf_role").ends_with("_id");
+}
+
+// True for a variable that describes the places along a dimension: texts, the axis of the dimension, what
+// names places by its role or is listed as a coordinate, and of sites all numbers with one for each.
+bool describes_places(const VariableHeader& variable, const ListOfPlaces& list) {
+  const std::string& dimension = list.dimensions.front();
   if (variable.dimensions.empty() || variable.dimensions[0] != dimension) return false;
-  if (!variable.is_number || variable.text("cf_role").ends_with("_id")) return true;
+  if (!variable.is_number || is_name_of_places(variable)) return true;
   const bool is_measured =
       !variable.text("units").empty() || !variable.text("standard_name").empty();
   return variable.dimensions.size() == 1 &&
-         (listed.contains(variable.name) || (variable.name == dimension && is_measured));
+         (list.are_sites || list.listed.contains(variable.name) ||
+          (variable.name == dimension && is_measured));
+}
+
+// True for a variable that describes places but is no column beside a list: the name of a whole track;
+// and where the places of sites have two dimensions, names and coordinates along one of them or both.
+bool is_beside_places(const VariableHeader& variable, const ListOfPlaces& list) {
+  if (is_name_of_places(variable)) return true;
+  if (list.dimensions.size() == 1 || !list.are_sites || variable.dimensions.empty()) return false;
+  return list.listed.contains(variable.name) &&
+         std::ranges::count(list.dimensions, variable.dimensions[0]) > 0;
 }
 
 // Returns the attributes that do not name other variables and say nothing of how values are stored. A
@@ -106,24 +128,72 @@ std::optional<Column> column_of(const io::NetcdfReader& file, const VariableHead
   }
 }
 
+// Returns the rows that have a longitude and a latitude: those without are left out where places are read.
+std::vector<bool> rows_with_place(const io::NetcdfReader& file, const std::string& lon,
+                                  const std::string& lat) {
+  const std::vector<double> lons = meant_numbers(file, file.require(lon));
+  const std::vector<double> lats = meant_numbers(file, file.require(lat));
+  std::vector<bool> rows(std::min(lons.size(), lats.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = std::isfinite(lons[i]) && std::isfinite(lats[i]);
+  }
+  return rows;
+}
+
+// Returns the cells of a column in some rows.
+Column with_rows_of(const Column& column, const std::vector<bool>& is_kept) {
+  Column kept = column.empty_copy();
+  for (std::size_t i = 0; i < column.ends.size(); ++i) {
+    if (is_kept[i]) io::append_cell(kept, column.cell(i));
+  }
+  kept.is_numeric = column.is_numeric;
+  return kept;
+}
+
+// Returns the places of a file that are a list, or of sites that have more dimensions; no dimensions
+// if it has none.
+ListOfPlaces list_of(const io::NetcdfReader& file, const std::vector<VariableHeader>& headers,
+                     const std::string& values) {
+  ListOfPlaces list;
+  const std::vector<CoordinatePair> pairs = find_coordinates(headers, {{}, {}, values});
+  if (pairs.empty() || pairs[0].are_axes) return list;
+  list.own = pairs.front();
+  list.are_sites = io::find_attribute(file.attributes(), "featureType") != nullptr;
+  const std::vector<std::string>& dimensions = headers[list.own.lon].dimensions;
+  if (dimensions.size() == 1 || (list.are_sites && !dimensions.empty())) {
+    list.dimensions = dimensions;
+  }
+  for (const VariableHeader& header : headers) {
+    for (std::string& word : words_of(header.text("coordinates"))) {
+      list.listed.insert(std::move(word));
+    }
+  }
+  return list;
+}
+
 DescribedPlaces described_in(const io::NetcdfReader& file, const std::string& values,
                              std::size_t num_places) {
-  DescribedPlaces described;
   const std::vector<VariableHeader> headers = headers_of(file);
-  const std::vector<CoordinatePair> pairs = find_coordinates(headers, {{}, {}, values});
-  if (pairs.empty() || headers[pairs[0].lon].dimensions.size() != 1 || pairs[0].are_axes) return {};
-  const CoordinatePair& own = pairs.front();
-  described.are_sites = io::find_attribute(file.attributes(), "featureType") != nullptr;
-  std::set<std::string> listed;
-  for (const VariableHeader& header : headers) {
-    for (std::string& word : words_of(header.text("coordinates"))) listed.insert(std::move(word));
+  const ListOfPlaces list = list_of(file, headers, values);
+  if (list.dimensions.empty()) return {};
+  const CoordinatePair& own = list.own;
+  const bool is_list = list.dimensions.size() == 1;
+  DescribedPlaces described;
+  described.are_sites = is_list && list.are_sites;
+  std::vector<bool> rows;  // those that are places, if they are fewer
+  if (is_list && headers[own.lon].shape[0] != num_places) {
+    rows = rows_with_place(file, headers[own.lon].name, headers[own.lat].name);
   }
+  const auto num_rows = static_cast<std::size_t>(std::ranges::count(rows, true));
+  const bool has_rows = is_list && (rows.empty() || num_rows == num_places);
   NameList lost;
   for (std::size_t i = 0; i < headers.size(); ++i) {
     if (i == own.lon || i == own.lat || i == own.lon_bounds || i == own.lat_bounds) continue;
-    if (!describes_places(headers[i], headers[own.lon].dimensions[0], listed)) continue;
+    const bool is_described = is_list && describes_places(headers[i], list);
+    if (!is_described && !is_beside_places(headers[i], list)) continue;
     std::optional<Column> column;
-    if (headers[i].shape[0] == num_places) column = column_of(file, headers[i]);
+    if (is_described && has_rows) column = column_of(file, headers[i]);
+    if (column && !rows.empty()) column = with_rows_of(*column, rows);
     if (column) {
       described.columns.push_back(std::move(*column));
     } else {

@@ -72,6 +72,38 @@ class Columns(ToolInFolder):
         self.run_tool("interpolate", "taken.csv", "--value", "oro", "--to", "taken.csv", "--method", "nearest", "-o", "out.csv")
         self.assertEqual(self.rows("out.csv"), [["lon", "lat", "oro_", "t", "oro"], ["10", "20", "7", "8", "7"]])
 
+    def test_numbers_of_sites_need_not_be_listed(self):
+        with self.list_of("s.nc") as file:
+            add(file, "wmo", ("station",), [7, 8, 9], "i4")
+            add(file, "depth", ("station",), [1.5, 2, 3], units="m")
+        self.assertEqual(self.regrid("s.nc"), [])
+        file = self.opened()
+        self.assertEqual((file["wmo"][:].tolist(), file["depth"][:].tolist(), file["depth"].units), ([7, 8, 9], [1.5, 2, 3], "m"))
+
+    def test_names_and_times_of_tracks_are_named_where_they_are_no_columns(self):
+        with self.list_of("track.nc", feature="trajectory") as file:
+            file.createDimension("length", 3)
+            add(file, "traj", ("length",), np.array(list("abc"), "S1"), "S1", cf_role="trajectory_id")
+        self.assertEqual(self.regrid("track.nc"), [f"track.nc: {LOST}traj"])
+        with netCDF4.Dataset(self.folder / "tracks.nc", "w") as file:
+            file.featureType = "trajectory"
+            for name, length in (("trajectory", 2), ("obs", 3), ("length", 1)):
+                file.createDimension(name, length)
+            both = ("trajectory", "obs")
+            add(file, "lon", both, np.arange(6.0).reshape(2, 3), units="degrees_east")
+            add(file, "lat", both, np.arange(6.0).reshape(2, 3), units="degrees_north")
+            add(file, "time", both, 1.0, units="days since 2000-01-01")
+            add(file, "tid", ("trajectory", "length"), np.array([["a"], ["b"]], "S1"), "S1", cf_role="trajectory_id")
+            add(file, "v", both, 1.0, coordinates="lat lon tid time")
+        self.assertIn(f"tracks.nc: {LOST}time, tid", self.regrid("tracks.nc"))
+
+    def test_places_keep_their_names_where_one_has_no_place(self):
+        with self.list_of("s.nc", lat=(0, np.nan, 20), names=["a", "b", "c"]) as file:
+            add(file, "alt", ("station",), [1.0, 2, 3], units="m")
+        self.assertEqual(self.regrid("s.nc"), ["s.nc: 1 of 3 places have no longitude or latitude and are left out"])
+        file = self.opened()
+        self.assertEqual((file["nm"][:].tolist(), file["nm"].cf_role, file["alt"][:].tolist()), (["a", "c"], "timeseries_id", [1, 3]))
+
 
 if __name__ == "__main__":
     unittest.main()
