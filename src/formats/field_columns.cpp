@@ -56,11 +56,36 @@ std::string take_name(std::string name, std::set<std::string>& taken) {
   return name;
 }
 
+namespace {
+
+// True for a cell without a number, as programs write it: R has NA, NumPy nan.
+bool is_missing_cell(std::string_view text) {
+  return text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "null";
+}
+
+}  // namespace
+
 double number_in_cell(std::string_view cell, const std::string& name) {
   const std::string_view text = io::trim(cell);
-  const bool is_missing =
-      text.empty() || text == "nan" || text == "NaN" || text == "NA" || text == "null";
-  return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(text, name);
+  return is_missing_cell(text) ? std::numeric_limits<double>::quiet_NaN()
+                               : io::parse_number(text, name);
+}
+
+// Columns of netCDF, which have attributes, and those of GeoJSON with cells of both kinds know what
+// they are.
+bool are_numbers(const Column& column) {
+  if (column.is_numeric) return !column.has_wide_integers();
+  if (!column.attributes.empty() || !column.is_json.empty()) return false;
+  bool has_number = false;
+  for (std::size_t row = 0; row < column.ends.size(); ++row) {
+    const std::string_view cell = column.cell(row);
+    if (is_missing_cell(io::trim(cell))) continue;
+    if (!io::is_json_number(cell)) return false;
+    has_number = true;
+  }
+  Column numbers = column;
+  numbers.is_numeric = true;
+  return has_number && !numbers.has_wide_integers();
 }
 
 std::vector<VariableHeader> ColumnsOut::headers() const {
@@ -68,7 +93,7 @@ std::vector<VariableHeader> ColumnsOut::headers() const {
   headers.reserve(columns_.size());
   for (const Column& column : columns_) {
     headers.push_back({.name = name_of_variable(column),
-                       .is_number = column.is_numeric && !column.has_wide_integers(),
+                       .is_number = are_numbers(column),
                        .dimensions = {"point"},
                        .shape = {1},
                        .texts = {}});
@@ -81,7 +106,7 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Column& column = columns_[c];
     const std::string& name = names[c];
-    is_number_.push_back(column.is_numeric && !column.has_wide_integers());
+    is_number_.push_back(are_numbers(column));
     // A dimension of length 0 would be a record dimension.
     std::size_t longest = 1;
     for (std::size_t i = 0; i < column.ends.size(); ++i) {
@@ -105,11 +130,8 @@ void ColumnsOut::write(io::NetcdfWriter& out) const {
     const Column& column = columns_[c];
     const std::size_t size = column.ends.size();
     if (is_number_[c]) {
-      out.write_values<double>(size, [&](std::size_t i) {
-        const std::string_view cell = column.cell(i);
-        return cell.empty() ? std::numeric_limits<double>::quiet_NaN()
-                            : io::parse_number(cell, column.name);
-      });
+      out.write_values<double>(
+          size, [&](std::size_t i) { return number_in_cell(column.cell(i), column.name); });
     } else {
       const std::size_t length = lengths_[c];
       out.write_values<char>(size * length, [&](std::size_t k) {

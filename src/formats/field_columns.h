@@ -32,6 +32,10 @@ std::string take_name(std::string name, std::set<std::string>& taken);
 // Returns the number in a cell; NaN if it is empty or says that it is missing. Throws BadValue.
 double number_in_cell(std::string_view cell, const std::string& name);
 
+// True if a column is written as numbers: if its cells are, but for those that are empty or, in a table,
+// say `nan`, `NaN`, `NA` or `null`, and doubles hold them. A column of such words alone is none.
+bool are_numbers(const Column& column);
+
 // Columns on their way to a file. They must live until write().
 class ColumnsOut {
  public:

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "formats/cf_names.h"
+#include "formats/field_columns.h"
 #include "formats/sites_gdal.h"
 #include "io/ending.h"
 #include "rondel/conventions.h"
@@ -105,20 +106,28 @@ bool are_names(const Column& column) {
 }
 
 // Gives a role to the names of sites: to those that had one in their file, or else to the first texts.
-void give_role(const std::string& role, std::vector<Column>& columns) {
+// Returns the column that had a role and is no name of one site each, if no other one has a role now.
+std::string give_role(const std::string& role, std::vector<Column>& columns) {
   Column* names = nullptr;
   bool had_role = false;
+  std::string without_role;
   for (Column& column : columns) {
     const bool has_role = std::erase_if(column.attributes, [](const auto& attribute) {
                             return attribute.first == "cf_role";
                           }) > 0;
     const bool is_better =
-        names == nullptr ? has_role || !column.is_numeric : has_role && !had_role;
-    if (!is_better || !are_names(column)) continue;
+        names == nullptr ? has_role || !are_numbers(column) : has_role && !had_role;
+    if (!is_better) continue;
+    if (!are_names(column)) {
+      if (has_role && without_role.empty()) without_role = column.name;
+      continue;
+    }
     names = &column;
     had_role = has_role;
   }
-  if (names != nullptr && !role.empty()) names->attributes.emplace_back("cf_role", role);
+  if (role.empty()) return {};
+  if (names != nullptr) names->attributes.emplace_back("cf_role", role);
+  return had_role ? std::string() : without_role;
 }
 
 }  // namespace
@@ -172,18 +181,20 @@ void refuse_points_as_cells(const FileName& file, const Execution& execution) {
 }
 
 // Arrays without times and levels are properties of a site, beside those that have some.
-void describe_features(FieldSet& fields, WeightSide& side) {
+std::string describe_features(FieldSet& fields, WeightSide& side) {
   std::set<std::string_view> features;
   for (const FieldArray& array : fields.arrays) {
     if (!array.dimensions.empty()) features.insert(feature_of(array, fields.axes));
   }
-  if (features.size() > 1 || features.contains("")) return;
+  if (features.size() > 1 || features.contains("")) return {};
   const std::string feature(features.empty() ? "point" : *features.begin());
   fields.attributes.emplace_back("featureType", feature);
-  give_role(feature == "point"     ? ""
-            : feature == "profile" ? "profile_id"
-                                   : "timeseries_id",
-            side.columns);
+  const std::string column = give_role(feature == "point"     ? ""
+                                       : feature == "profile" ? "profile_id"
+                                                              : "timeseries_id",
+                                       side.columns);
+  return column.empty() ? std::string()
+                        : column + " has no cf_role, as a name is empty or there more than once";
 }
 
 }  // namespace rondel::formats

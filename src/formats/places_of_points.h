@@ -37,7 +37,8 @@ void refuse_points_as_cells(const FileName& file, const Execution& execution);
 
 // Adds the attribute `featureType` to fields at sites. Where it names a series or a profile, the first
 // texts of the side of which each names one site get the `cf_role` of its name. Fields with other
-// dimensions than times and levels, or of several such types, get neither.
-void describe_features(FieldSet& fields, WeightSide& side);
+// dimensions than times and levels, or of several such types, get neither. Returns a remark if a column
+// loses its role because its cells do not name one site each; or an empty text.
+std::string describe_features(FieldSet& fields, WeightSide& side);
 
 }  // namespace rondel::formats

@@ -162,7 +162,10 @@ class RegridJob {
         static_cast<std::size_t>(std::min<std::uint64_t>(plan_.spare / 2, usual_kept_chunks)));
     const bool is_netcdf = is_netcdf_file(out_);
     WeightSide side = target_.description(is_netcdf, execution_);
-    if (target_.has_sites() && is_netcdf) formats::describe_features(written, side);
+    if (target_.has_sites() && is_netcdf) {
+      const std::string remark = formats::describe_features(written, side);
+      if (!remark.empty()) formats::add_remarks(out_.path, {remark}, report_.remarks);
+    }
     std::optional<RegridOutput> output;
     if (ranks_.is_first()) {
       output.emplace(out_, written, side, options_.netcdf, execution_);

@@ -104,6 +104,28 @@ class Columns(ToolInFolder):
         file = self.opened()
         self.assertEqual((file["nm"][:].tolist(), file["nm"].cf_role, file["alt"][:].tolist()), (["a", "c"], "timeseries_id", [1, 3]))
 
+    def test_names_that_name_no_single_site_lose_their_role_with_a_line(self):
+        for names in (["a", "", "b"], ["a", "b", "a"]):
+            self.list_of("s.nc", names=names).close()
+            self.assertEqual(self.regrid("s.nc"), ["out.nc4: nm has no cf_role, as a name is empty or there more than once"])
+            file = self.opened()
+            self.assertEqual((file["nm"][:].tolist(), file.featureType), (names, "timeSeries"))
+            self.assertNotIn("cf_role", file["nm"].ncattrs())
+        # Without a role for the type of features there is nothing to lose.
+        self.assertEqual(self.regrid("s.nc", field="oro"), [])
+
+    def test_words_for_missing_numbers_leave_a_column_of_numbers(self):
+        (self.folder / "gaps.csv").write_text("lon,lat,v,w,code,none\n10,20,nan,5,NA,NA\n10,30,5.5,null,x,NA\n10,40,,NaN,2,NA\n10,50,NA,-1,3,NA\n")
+        for command in (("regrid", "in.nc", "gaps.csv"), ("interpolate", "in.nc", "--to", "gaps.csv")):
+            self.run_tool(*command, "--method", "bilinear", "-o", "out.nc4")
+            file = self.opened()
+            np.testing.assert_array_equal(np.ma.filled(file["v"][:], np.nan), [np.nan, 5.5, np.nan, np.nan])
+            np.testing.assert_array_equal(np.ma.filled(file["w"][:], np.nan), [5, np.nan, np.nan, -1])
+            self.assertEqual((file["code"].dtype.kind, file["none"].dtype.kind), ("S", "S"))
+            # A table has the words of the table.
+            self.run_tool(*command, "--method", "bilinear", "--value", "oro", "-o", "out.csv")
+            self.assertEqual([row[2] for row in self.rows("out.csv")], ["v", "nan", "5.5", "", "NA"])
+
 
 if __name__ == "__main__":
     unittest.main()
