@@ -3,6 +3,7 @@
 #include "targets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string_view>
@@ -102,6 +103,14 @@ std::vector<Column> columns_beside(const FileName& target, const ReadOptions& re
   return columns;
 }
 
+// Throws FileError for the first target that is where the directions are seen from, and so is no place.
+void require_directions_of(const SiteTable& table, const std::vector<LonLat>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!std::isnan(places[i].lon_deg)) continue;
+    throw FileError(table.where(i) + ": the point has no direction, so that it is no place");
+  }
+}
+
 // Reads targets whose longitudes and latitudes are seen from the origin.
 Targets read_given_targets(const FileName& target, const ReadOptions& read, const Point& center) {
   Targets targets;
@@ -140,6 +149,7 @@ Targets read_given_targets(const FileName& target, const ReadOptions& read, cons
          {"left out " + count(table.num_unlocated, "target", "targets") + " without a place"});
   }
   targets.side.points = lonlats_of(table, center);
+  require_directions_of(table, targets.side.points);
   return targets;
 }
 

@@ -6,6 +6,7 @@
 #include "formats/places_of_points.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -27,6 +28,25 @@ namespace {
 SiteTable sites_of(FileName file, const ReadOptions& options, const Execution& execution) {
   if (io::is_geojson(file)) file.format = "geojson";
   return read_sites(file, options, execution);
+}
+
+// Returns a message of the reader of tables without the options that name columns and delimiters: those
+// of a target are found by its header and its ending alone.
+std::string without_options(std::string message) {
+  constexpr std::pair<std::string_view, std::string_view> advice[] = {
+      {" (--delimiter)", " A target has commas, or tabs in .tsv"},
+      {"; name one of them", "; rename or remove one of them"},
+      {"; name those to read", "; rename or remove those of one kind"},
+      {": --lon ", ", call them lon and lat"},
+  };
+  for (const auto& [option, instead] : advice) {
+    const std::size_t at = message.rfind(option);
+    if (at == std::string::npos) continue;
+    // Behind --lon come the names of both columns, to the end.
+    const bool is_to_end = option.starts_with(": --");
+    message.replace(at, is_to_end ? std::string::npos : option.size(), instead);
+  }
+  return message;
 }
 
 // True if a file that could not be read as points has polygons, valid ones or not.
@@ -53,6 +73,14 @@ void keep_value_columns(const FileName& file, const ReadOptions& options, SiteTa
     if (is_kept) ++next;
     return !is_kept;
   });
+}
+
+// Throws FileError for the first point in the middle of the sphere, where no direction is a place.
+void require_directions(const SiteTable& table, const std::vector<LonLat>& places) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!std::isnan(places[i].lon_deg)) continue;
+    throw FileError(table.where(i) + ": the point has no direction, so that it is no place");
+  }
 }
 
 bool is_time(const std::string& dimension, const FieldArray* axis) {
@@ -144,8 +172,8 @@ PlacesOfPoints read_places_of_points(const FileName& file, const Execution& exec
   SiteTable table;
   try {
     table = sites_of(file, options, execution);
-  } catch (const FileError&) {
-    if (!has_polygons(file)) throw;
+  } catch (const FileError& error) {
+    if (!has_polygons(file)) throw FileError(without_options(error.what()));
     throw FileError(file.path +
                     ": it has polygons, which are no places: conservative methods, largest_share "
                     "and statistics are over polygons, and other methods between places");
@@ -154,7 +182,8 @@ PlacesOfPoints read_places_of_points(const FileName& file, const Execution& exec
   PlacesOfPoints points;
   points.places = table.is_lonlat() ? std::move(table.positions) : lonlats(table.sites);
   points.columns = std::move(table.columns);
-  if (points.places.empty()) throw FileError(table.name + ": there are no points");
+  require_directions(table, points.places);
+  if (points.places.empty()) points.remarks.emplace_back("there are no points");
   if (table.num_unlocated > 0) {
     points.remarks.push_back("left out " + std::to_string(table.num_unlocated) +
                              (table.num_unlocated == 1 ? " target" : " targets") +

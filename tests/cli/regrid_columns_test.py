@@ -126,6 +126,28 @@ class Columns(ToolInFolder):
             self.run_tool(*command, "--method", "bilinear", "--value", "oro", "-o", "out.csv")
             self.assertEqual([row[2] for row in self.rows("out.csv")], ["v", "nan", "5.5", "", "NA"])
 
+    def test_no_points_give_an_output_without_rows(self):
+        (self.folder / "none.csv").write_text("lon,lat,name\n")
+        np.save(self.folder / "none.npy", np.zeros((0, 2)))
+        for target, header in (("none.csv", ["lon", "lat", "name", "oro"]), ("none.npy", ["lon", "lat", "oro"])):
+            for method in ("nearest", "linear", "bilinear"):
+                for command in (("regrid", "in.nc", target), ("interpolate", "in.nc", "--to", target)):
+                    said = self.run_tool(*command, "--method", method, "--value", "oro", "-o", "out.csv")
+                    self.assertEqual((said, self.rows("out.csv")), ([f"{target}: there are no points"], [header]))
+                    for ending, field, shape in (("nc", "oro", (0,)), ("nc4", "t", (2, 0))):
+                        said = self.run_tool(*command, "--method", method, "--value", field, "-o", f"out.{ending}")
+                        self.assertEqual(said, [f"{target}: there are no points"])
+                        self.assertEqual(self.opened(f"out.{ending}")[field].shape, shape)
+                    # A classic file has a dimension of length 0 in front of all others only.
+                    said = self.run_tool(*command, "--method", method, "--value", "t", "-o", "out.nc", status=1)
+                    self.assertTrue(said[-1].endswith("netCDF-4 can"), said)
+
+    def test_points_without_a_direction_are_no_places_of_their_file(self):
+        (self.folder / "zero.xyz").write_text("1 0 0\n0 1 0\n0 0 0\n")
+        for command in (("regrid", "in.nc", "zero.xyz"), ("interpolate", "in.nc", "--to", "zero.xyz")):
+            said = self.run_tool(*command, "--method", "bilinear", "-o", "out.csv", status=1)
+            self.assertEqual(said, ["zero.xyz:3: the point has no direction, so that it is no place"])
+
 
 if __name__ == "__main__":
     unittest.main()

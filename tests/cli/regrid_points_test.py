@@ -169,10 +169,10 @@ class Points(ToolInFolder):
         for name, why in (
             ("areas", "areas.geojson: it has polygons, which are no places"),
             ("mixed", 'mixed.geojson:1: feature 1: type "Polygon" where a Point is needed'),
-            ("none", "none.geojson: there are no points"),
         ):
             said = self.run_tool("regrid", "in.nc", f"{name}.geojson", "--method", "linear", "-o", "out.nc", status=1)
             self.assertTrue(said[0].startswith(why), said)
+        self.assertEqual(self.run_tool("regrid", "in.nc", "none.geojson", "--method", "linear", "-o", "out.nc4"), ["none.geojson: there are no points"])
         said = self.run_tool("regrid", "in.nc", "points.geojson", "--method", "linear", "--edges", "geodesic", "-o", "out.nc", status=2)
         self.assertEqual(said, ["--edges has no effect with a method between places"])
 
@@ -188,7 +188,11 @@ class Points(ToolInFolder):
     def test_tables_that_have_no_places_are_refused(self):
         for text, why in (
             ("", "the file is empty"),
-            ("lon,lat,name\n", "there are no points"),
+            ("lon;lat\n1;2\n", '; is the delimiter ";"? A target has commas, or tabs in .tsv'),
+            ("lon,longitude,lat\n1,2,3\n", '"longitude" (column 2); rename or remove one of them'),
+            ("lon,lat,x,y,z\n1,2,3,4,5\n", "x, y, z; rename or remove those of one kind"),
+            ("x,y\n1,2\n", "; if they are longitude and latitude, call them lon and lat"),
+            ("x,y,z\n0,1,0\n0,0,0\n", "bad.csv:3: the point has no direction, so that it is no place"),
             ("a,b\n1,2\n", ":1: no columns for longitude and latitude (lon, lat) or for x, y, z; found: a, b"),
             ("lon,lat\n1,2\nnan,3\n", ':3: longitude "nan" is not finite'),
             ("lon,lat\n1,91\n", ":2: latitude"),
