@@ -19,9 +19,18 @@ namespace rondel::formats {
 
 using io::NetcdfType;
 
+std::string shortened_name(std::string_view name) {
+  constexpr std::size_t room = 16;  // for underscores and `_length`
+  std::size_t end = std::min(name.size(), max_bytes_of_name - room);
+  // Bytes 10xxxxxx of UTF-8 stay with the first byte of their character.
+  while (end < name.size() && end > 0 && (name[end] & 0xC0) == 0x80) --end;
+  return std::string(name.substr(0, end));
+}
+
 // By the netCDF User's Guide, "NetCDF names", a name begins with a letter, a digit, an underscore
 // or a UTF-8 character, has no slash and no control characters, and does not end with a blank.
 std::string netcdf_name(std::string name) {
+  if (name.size() > max_bytes_of_name) name = shortened_name(name);
   for (char& c : name) {
     if (c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '_';
   }
@@ -115,7 +124,8 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
     lengths_.push_back(longest);
     io::NetcdfVariable made = variable(name, NetcdfType::float64, {points});
     if (!is_number_.back()) {
-      const std::size_t length = out.add_dimension(take_name(name + "_length", taken), longest);
+      const std::size_t length =
+          out.add_dimension(take_name(shortened_name(name) + "_length", taken), longest);
       made = variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}});
     }
     for (const auto& [attribute, text] : column.attributes) {

@@ -22,7 +22,14 @@
 
 namespace rondel::formats {
 
-// Returns a valid netCDF name: characters that netCDF does not accept become underscores.
+// netCDF-C reads no name of more than NC_MAX_NAME = 256 bytes, and netCDF4-python none of 256 either.
+inline constexpr std::size_t max_bytes_of_name = 255;
+
+// Returns the beginning of a name that leaves room for an ending.
+std::string shortened_name(std::string_view name);
+
+// Returns a valid netCDF name: characters that netCDF does not accept become underscores, and what is
+// beyond max_bytes_of_name is cut off.
 std::string netcdf_name(std::string name);
 
 // Returns the name, with as many underscores behind it as make it differ from those that are taken,
@@ -52,6 +59,8 @@ class ColumnsOut {
   [[nodiscard]] bool has_attributes(std::size_t column) const {
     return !columns_[column].attributes.empty();
   }
+  // Returns the name of a column, as its file has it.
+  [[nodiscard]] const std::string& name(std::size_t column) const { return columns_[column].name; }
   // Writes the values, after NetcdfWriter::begin().
   void write(io::NetcdfWriter& out) const;
 

@@ -21,6 +21,7 @@
 #include "formats/written_names.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
+#include "io/number.h"
 
 namespace rondel::formats {
 namespace {
@@ -237,6 +238,10 @@ class NetcdfSink : public FieldSink {
     std::vector<std::string> remarks = out_.remarks();
     if (!renamed_.empty())
       remarks.push_back("what describes places gave way to fields: " + renamed_);
+    if (!shortened_.empty()) {
+      remarks.push_back("names of more than " + std::to_string(max_bytes_of_name) +
+                        " bytes are shortened: " + shortened_);
+    }
     return remarks;
   }
 
@@ -312,7 +317,15 @@ class NetcdfSink : public FieldSink {
       if (name == of_columns[c].name || !columns_.has_attributes(c)) continue;
       renamed_ += (renamed_.empty() ? "" : ", ") + of_columns[c].name + " is " + name;
     }
+    for (const FieldArray& array : fields.arrays) note_length(array.name);
+    for (std::size_t c = 0; c < of_columns.size(); ++c) note_length(columns_.name(c));
     return names;
+  }
+
+  // Keeps the beginning of a name that is too long for netCDF, for a remark.
+  void note_length(const std::string& name) {
+    if (name.size() <= max_bytes_of_name) return;
+    shortened_ += (shortened_.empty() ? "" : ", ") + io::in_quotes(name);
   }
 
   // Defines the arrays and the columns. `leading` has the dimensions of each array before those of
@@ -409,6 +422,7 @@ class NetcdfSink : public FieldSink {
   // The dimensions, by their names and lengths in the source.
   std::map<std::pair<std::string, std::uint64_t>, LeadingDimension> known_;
   std::vector<std::string> unlimited_;  // names of dimensions that may grow
+  std::string shortened_;               // names that are too long for netCDF, in quotes
   std::string renamed_;                 // what describes places and got other names, in words
 };
 

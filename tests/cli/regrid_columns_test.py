@@ -148,6 +148,18 @@ class Columns(ToolInFolder):
             said = self.run_tool(*command, "--method", "bilinear", "-o", "out.csv", status=1)
             self.assertEqual(said, ["zero.xyz:3: the point has no direction, so that it is no place"])
 
+    def test_names_that_are_too_long_are_shortened_with_a_line(self):
+        names = ["a" * 300, "a" * 299, "é" * 130, "b" * 255]
+        (self.folder / "long.csv").write_text(",".join(["lon", "lat", *names]) + "\n10,20,1,3,2,y\n", encoding="utf-8")
+        for command in (("regrid", "in.nc", "long.csv"), ("interpolate", "in.nc", "--to", "long.csv")):
+            for ending in ("nc", "nc4"):
+                said = self.run_tool(*command, "--method", "bilinear", "-o", f"out.{ending}")
+                shown = ", ".join(f'"{start}..."' for start in ("a" * 60, "a" * 60, "é" * 29))
+                self.assertTrue(said[-1].endswith(f"names of more than 255 bytes are shortened: {shown}"), said)
+                file = self.opened(f"out.{ending}")
+                for name in ("a" * 239, "a" * 239 + "_", "é" * 119, "b" * 255):
+                    self.assertIn(name, file.variables)
+
 
 if __name__ == "__main__":
     unittest.main()
