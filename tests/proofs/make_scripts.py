@@ -102,8 +102,15 @@ def filled(script, formulas):
 def main():
     formulas = read_formulas(pathlib.Path(sys.argv[1]))
     output = pathlib.Path(sys.argv[3])
+    wrong = []
     for path in sorted(pathlib.Path(sys.argv[2]).glob("*.g")):
-        (output / path.name).write_text(filled(path.read_text(encoding="utf-8"), formulas), encoding="utf-8")
+        try:
+            script = filled(path.read_text(encoding="utf-8"), formulas)
+            (output / path.name).write_text(script, encoding="utf-8")
+        except (KeyError, ValueError) as error:
+            wrong.append(f"{path.name} cannot be filled in: {error}")
+    if wrong:
+        sys.exit("\n".join(wrong))
 
 
 if __name__ == "__main__":

@@ -225,39 +225,46 @@ Proof. apply bpow_ge_0. Qed.
 Lemma u2_value : u2 = / 81129638414606681695789005144064.
 Proof. reflexivity. Qed.
 
+(* The value of both determinants, and that of the comparison of angles. *)
+Definition determinant : term := Opposite plane_double_double_High_109_of.
+Definition distances : term := angle_double_double_High_100_of.
+
+Lemma circle_takes_the_determinant : circle_double_double_High_109_of = plane_double_double_High_109_of.
+Proof. reflexivity. Qed.
+
 Ltac pair_ranges :=
   apply gamma_range; [apply u2_positive | compute_counts; simpl; rewrite u2_value; lra].
 
 Lemma plane_double_double_margin E :
-  0 <= E <= most u2 (count 3 7 double_double_determinant_0_left) ->
+  0 <= E <= most u2 (count 3 7 determinant) ->
   11548 / 10000 * E * (11548 / 10000 * E) * (1 + u) <=
-  factor plane_double_double_bound * (1 - / 1099511627776) * ((1 - u) * (1 - u)).
+  factor plane_double_double_1_right * (1 - / 1099511627776) * ((1 - u) * (1 - u)).
 Proof.
   intros HE. apply Rnot_lt_le. intro. apply (certificate_plane_double_double.l1 E).
   unfold certificate_plane_double_double.s1, certificate_plane_double_double.s2, not.
-  unfold factor, plane_double_double_bound, u2 in *. certify.
+  unfold factor, plane_double_double_1_right, u2 in *. certify.
 Qed.
 
-(* side_of_plane_double_double, of exact pairs: P is the product of their lengths, h the high word of V. *)
-Theorem plane_double_double_filter env V h l r :
+(* What is used of side_of_plane_double_double, of exact pairs: P is the product of their lengths, h the high word of V. *)
+Lemma plane_double_double_limit env V h l r :
   let b := triple env 0 in
   let c := triple env 3 in
   let d := triple env 6 in
   let P := length b * length c * length d in
-  computes u2 3 7 env double_double_determinant_0_left V -> Rabs (h - V) <= u * Rabs h ->
+  computes u2 3 7 env determinant V -> Rabs (h - V) <= u * Rabs h ->
   Rabs (l - h * h) <= u * Rabs (h * h) ->
-  factor plane_double_double_bound * (P * P) * (1 - / 1099511627776) <= r -> r < l -> 0 < h * - det b c d.
+  factor plane_double_double_1_right * (P * P) * (1 - / 1099511627776) <= r -> r < l -> 0 < h * - det b c d.
 Proof.
   intros b c d P HV Hh Hl Hr L. assert (U := u_positive). assert (U1 : u <= / 2) by (rewrite u_value; lra).
-  assert (Value : exact env double_double_determinant_0_left = - det b c d)
+  assert (Value : exact env determinant = - det b c d)
     by (unfold b, c, d; lay_open; ring).
-  assert (HE : 0 <= gamma u2 (count 3 7 double_double_determinant_0_left)
-               <= most u2 (count 3 7 double_double_determinant_0_left)) by pair_ranges.
+  assert (HE : 0 <= gamma u2 (count 3 7 determinant)
+               <= most u2 (count 3 7 determinant)) by pair_ranges.
   assert (M := plane_double_double_margin _ HE).
   assert (E := error_of_formula u2 u2_positive 3 7 env _ V HV). rewrite Value in E.
-  replace (size env double_double_determinant_0_left) with (permanent b c d) in E
+  replace (size env determinant) with (permanent b c d) in E
     by (unfold b, c, d; symmetry; sizes).
-  set (g := gamma u2 (count 3 7 double_double_determinant_0_left)) in *.
+  set (g := gamma u2 (count 3 7 determinant)) in *.
   assert (B := permanent_bound b c d). fold P in B.
   assert (P0 : 0 <= P) by (unfold P; repeat apply Rmult_le_pos; apply length_positive).
   assert (E' : Rabs (V - - det b c d) <= 11548 / 10000 * g * P).
@@ -267,7 +274,7 @@ Proof.
   assert (Big : (1 - u) * Rabs h <= Rabs V).
   { assert (T := Rabs_triang_inv h (h - V)). replace (h - (h - V)) with V in T by ring. lra. }
   assert (h2 : 0 <= h * h) by nra. rewrite (Rabs_pos_eq (h * h)) in Hl by assumption. apply Rabs_le_inv in Hl.
-  set (K := factor plane_double_double_bound) in *.
+  set (K := factor plane_double_double_1_right) in *.
   assert (Square : 11548 / 10000 * g * P * (11548 / 10000 * g * P) < Rabs V * Rabs V).
   { assert (PP : 0 <= P * P) by nra.
     assert (M' := Rmult_le_compat_r (P * P) _ _ PP M).
@@ -295,21 +302,21 @@ Qed.
 
 (* The margin of circle_double_double_bound: the differences are off by 2^-99 at most. *)
 Lemma circle_double_double_margin E H w :
-  0 <= E <= most u2 (count 3 7 double_double_determinant_0_left) -> 0 <= H <= 2049 / 1024 ->
+  0 <= E <= most u2 (count 3 7 determinant) -> 0 <= H <= 2049 / 1024 ->
   0 <= w <= 562949953421312 ->
   let T := constant 1 (-99) in
   11548 / 10000 * E * H + T * (3 + 3 * (T * w) + T * w * (T * w)) <=
-  factor circle_double_double_bound * (1 - / 1099511627776) * (1 - u).
+  factor circle_double_double_1_right * (1 - / 1099511627776) * (1 - u).
 Proof.
   intros HE HH Hw T. apply Rnot_lt_le. intro. apply (certificate_circle_double_double.l1 E H w).
   unfold certificate_circle_double_double.s1, certificate_circle_double_double.s2,
     certificate_circle_double_double.s3, certificate_circle_double_double.s4, not.
-  subst T. unfold factor, circle_double_double_bound, u2 in *. certify.
+  subst T. unfold factor, circle_double_double_1_right, u2 in *. certify.
 Qed.
 
-(* side_of_circle_double_double, of pairs that are differences of unit vectors within 2^-99: H is the longest
+(* What is used of side_of_circle_double_double, of pairs that are differences of unit vectors within 2^-99: H is the longest
    one, h the high word of V. The filter refuses H^2 below a half of its bound. *)
-Theorem circle_double_double_filter env eb ec ed ep V h r H :
+Lemma circle_double_double_limit env eb ec ed ep V h r H :
   let b := triple env 0 in
   let c := triple env 3 in
   let d := triple env 6 in
@@ -317,20 +324,20 @@ Theorem circle_double_double_filter env eb ec ed ep V h r H :
   length (difference (difference eb ep) b) <= T -> length (difference (difference ec ep) c) <= T ->
   length (difference (difference ed ep) d) <= T ->
   length b <= H -> length c <= H -> length d <= H -> / 562949953421312 <= H <= 2049 / 1024 ->
-  computes u2 3 7 env double_double_determinant_0_left V -> Rabs (h - V) <= u * Rabs h ->
-  factor circle_double_double_bound * (H * H) * (1 - / 1099511627776) <= r -> r < Rabs h ->
+  computes u2 3 7 env determinant V -> Rabs (h - V) <= u * Rabs h ->
+  factor circle_double_double_1_right * (H * H) * (1 - / 1099511627776) <= r -> r < Rabs h ->
   0 < h * - det (difference eb ep) (difference ec ep) (difference ed ep).
 Proof.
   intros b c d T Tb Tc Td Hb Hc Hd HH HV Hh Hr L. assert (U := u_positive).
   assert (U1 : u <= / 2) by (rewrite u_value; lra).
-  assert (Value : exact env double_double_determinant_0_left = - det b c d)
+  assert (Value : exact env determinant = - det b c d)
     by (unfold b, c, d; lay_open; ring).
-  assert (HE : 0 <= gamma u2 (count 3 7 double_double_determinant_0_left)
-               <= most u2 (count 3 7 double_double_determinant_0_left)) by pair_ranges.
+  assert (HE : 0 <= gamma u2 (count 3 7 determinant)
+               <= most u2 (count 3 7 determinant)) by pair_ranges.
   assert (E := error_of_formula u2 u2_positive 3 7 env _ V HV). rewrite Value in E.
-  replace (size env double_double_determinant_0_left) with (permanent b c d) in E
+  replace (size env determinant) with (permanent b c d) in E
     by (unfold b, c, d; symmetry; sizes).
-  set (g := gamma u2 (count 3 7 double_double_determinant_0_left)) in *.
+  set (g := gamma u2 (count 3 7 determinant)) in *.
   set (w := / H).
   assert (H0 : 0 < H) by lra.
   assert (Hw : 0 <= w <= 562949953421312).
@@ -360,7 +367,7 @@ Proof.
     assert (length c * length d <= H * H) by (apply Rmult_le_compat; assumption).
     assert (length d * length b <= H * H) by (apply Rmult_le_compat; assumption).
     assert (T * (length b + length c + length d) <= T * (3 * H)) by (apply Rmult_le_compat_l; lra). lra. }
-  set (K := factor circle_double_double_bound) in *.
+  set (K := factor circle_double_double_1_right) in *.
   assert (Big : (1 - u) * Rabs h <= Rabs V).
   { assert (X := Rabs_triang_inv h (h - V)). replace (h - (h - V)) with V in X by ring. lra. }
   assert (HHp : 0 < H * H) by (apply Rmult_lt_0_compat; assumption).
@@ -384,45 +391,45 @@ Proof.
 Qed.
 
 Lemma angle_double_double_margin E H w :
-  0 <= E <= most u2 (count 3 7 double_double_distances_0_left) -> 0 <= H <= 2049 / 1024 -> 0 <= w <= 1 ->
+  0 <= E <= most u2 (count 3 7 distances) -> 0 <= H <= 2049 / 1024 -> 0 <= w <= 1 ->
   let T := constant 1 (-98) in
-  let k := sqrt (factor angle_double_double_bound * (1 - constant 1 (-40)) / (1 + one_u)) in
+  let k := sqrt (factor angle_double_double_0_right * (1 - constant 1 (-40)) / (1 + one_u)) in
   2 * E * H + T * (4 + 4 * (T / k * w)) <= k * (1 - one_u).
 Proof.
   intros HE HH Hw T k. apply Rnot_lt_le. intro. apply (certificate_angle_double_double.l1 E H w).
   unfold certificate_angle_double_double.s1, certificate_angle_double_double.s2,
     certificate_angle_double_double.s3, certificate_angle_double_double.s4, not.
-  subst T k. unfold factor, angle_double_double_bound, u2, one_u in *. numbers.
+  subst T k. unfold factor, angle_double_double_0_right, u2, one_u in *. numbers.
   repeat split; try lra; intro; lra.
 Qed.
 
-(* compare_angle_double_double, of pairs that are differences of unit vectors within 2^-98, as differences of
+(* What is used of compare_angle_double_double, of pairs that are differences of unit vectors within 2^-98, as differences of
    pairs of doubles are: H is the longer one, h the high word of V. *)
-Theorem angle_double_double_filter env eb ea ep V h l r H :
+Lemma angle_double_double_limit env eb ea ep V h l r H :
   let b := triple env 0 in
   let a := triple env 3 in
   let T := constant 1 (-98) in
   length (difference (difference eb ep) b) <= T -> length (difference (difference ea ep) a) <= T ->
   length b <= H -> length a <= H -> 0 < H <= 2049 / 1024 ->
-  computes u2 3 7 env double_double_distances_0_left V -> Rabs (h - V) <= u * Rabs h ->
+  computes u2 3 7 env distances V -> Rabs (h - V) <= u * Rabs h ->
   Rabs (l - h * h) <= u * Rabs (h * h) ->
-  factor angle_double_double_bound * (H * H) * (1 - constant 1 (-40)) <= r -> r < l ->
+  factor angle_double_double_0_right * (H * H) * (1 - constant 1 (-40)) <= r -> r < l ->
   0 < h * (square (difference eb ep) - square (difference ea ep)).
 Proof.
   intros b a T Tb Ta Hb Ha HH HV Hh Hl Hr L. assert (U := u_positive).
   assert (U1 : u <= / 16) by (rewrite u_value; lra).
-  assert (Value : exact env double_double_distances_0_left = square b - square a)
+  assert (Value : exact env distances = square b - square a)
     by (unfold b, a; lay_open; ring).
-  assert (Size : size env double_double_distances_0_left = square b + square a) by (unfold b, a; sizes).
-  assert (HE : 0 <= gamma u2 (count 3 7 double_double_distances_0_left)
-               <= most u2 (count 3 7 double_double_distances_0_left)) by pair_ranges.
+  assert (Size : size env distances = square b + square a) by (unfold b, a; sizes).
+  assert (HE : 0 <= gamma u2 (count 3 7 distances)
+               <= most u2 (count 3 7 distances)) by pair_ranges.
   assert (E := error_of_formula u2 u2_positive 3 7 env _ V HV). rewrite Value, Size in E.
-  set (g := gamma u2 (count 3 7 double_double_distances_0_left)) in *.
+  set (g := gamma u2 (count 3 7 distances)) in *.
   assert (g1 : g <= / 16).
   { destruct HE as [_ HE]. revert HE. compute_counts. unfold most. simpl. rewrite u2_value. lra. }
-  set (K := factor angle_double_double_bound) in *.
+  set (K := factor angle_double_double_0_right) in *.
   set (k := sqrt (K * (1 - constant 1 (-40)) / (1 + one_u))).
-  assert (K0 : 0 < K) by (unfold K, factor, angle_double_double_bound, constant; simpl; lra).
+  assert (K0 : 0 < K) by (unfold K, factor, angle_double_double_0_right, constant; simpl; lra).
   assert (C40 : 0 <= constant 1 (-40) <= / 2) by (unfold constant; simpl; lra).
   assert (k0 : 0 < k) by (apply root_positive; lra).
   assert (Accepted : k * H < Rabs h).
@@ -475,3 +482,236 @@ Proof.
   assert (0 < h * V * (V * (X - Y))) by (apply Rmult_lt_0_compat; assumption).
   assert (0 < V * V) by nra. nra.
 Qed.
+
+(* --- what the filters of pairs compare: high words, which are numbers from 100 on --- *)
+
+(* g is the high word of x. *)
+Definition is_high g x : Prop := Rabs (g - x) <= u * Rabs g.
+
+Lemma square_of_high g x : is_high g x -> (1 - 2 * u) * (x * x) <= g * g.
+Proof.
+  intros H. assert (U := u_positive). assert (U1 : u <= / 2) by (rewrite u_value; lra). unfold is_high in H.
+  assert (T := Rabs_triang_inv x g). rewrite Rabs_minus_sym in T.
+  assert (X : Rabs x <= (1 + u) * Rabs g) by lra.
+  assert (Px := Rabs_pos x). assert (Pg := Rabs_pos g).
+  assert (S : Rabs x * Rabs x <= (1 + u) * Rabs g * ((1 + u) * Rabs g)) by (apply Rmult_le_compat; lra).
+  rewrite Rabs_square in S.
+  replace ((1 + u) * Rabs g * ((1 + u) * Rabs g)) with ((1 + u) * (1 + u) * (Rabs g * Rabs g)) in S by ring.
+  rewrite Rabs_square in S. assert (G : 0 <= g * g) by nra.
+  apply Rle_trans with ((1 - 2 * u) * ((1 + u) * (1 + u) * (g * g))); [apply Rmult_le_compat_l; lra |].
+  assert ((1 - 2 * u) * ((1 + u) * (1 + u)) <= 1) by nra. nra.
+Qed.
+
+(* Numbers from 100 + k on are the high words of the pairs from k on. *)
+Definition are_high env k : Prop :=
+  is_high (env (100 + k)%nat) (env k) /\ is_high (env (101 + k)%nat) (env (S k)) /\
+  is_high (env (102 + k)%nat) (env (S (S k))).
+
+Lemma square_of_highs env k :
+  are_high env k -> (1 - 2 * u) * square (triple env k) <= square (triple env (100 + k)).
+Proof.
+  intros [X [Y Z]]. apply square_of_high in X, Y, Z.
+  unfold square, dot, triple; simpl in *. lra.
+Qed.
+
+Lemma product_of_highs c a b d A B D :
+  0 <= c -> 0 <= a -> 0 <= b -> 0 <= d -> c * a <= A -> c * b <= B -> c * d <= D ->
+  c * c * c * (a * b * d) <= A * B * D.
+Proof.
+  intros. replace (c * c * c * (a * b * d)) with (c * a * (c * b) * (c * d)) by ring.
+  repeat apply Rmult_le_compat; try assumption; repeat apply Rmult_le_pos; assumption.
+Qed.
+
+(* side_of_plane_double_double, of exact pairs: -det(b, c, d). W is the determinant in pairs. *)
+Theorem plane_double_double_filter env W l r :
+  let b := triple env 0 in
+  let c := triple env 3 in
+  let d := triple env 6 in
+  let h := exact env plane_double_double_2_left in
+  are_high env 0 -> are_high env 3 -> are_high env 6 ->
+  computes u2 3 7 env plane_double_double_High_109_of W -> is_high (env 109%nat) W ->
+  Rabs (l - h * h) <= u * Rabs (h * h) -> computes u 1 1 env plane_double_double_1_right r -> r < l ->
+  0 < h * - det b c d.
+Proof.
+  intros b c d h B C D HW Hh Hl Hr L. assert (U := u_positive).
+  assert (U1 : u <= / 2048) by (rewrite u_value; lra).
+  set (P := length b * length c * length d).
+  apply plane_double_double_limit with (V := - W) (l := l) (r := r); try assumption.
+  - apply computes_opposite. assumption.
+  - unfold is_high in Hh. unfold h. simpl. rewrite Rabs_Ropp.
+    replace (- env 109%nat - - W) with (- (env 109%nat - W)) by ring. rewrite Rabs_Ropp. assumption.
+  - fold b c d P. set (right := plane_double_double_1_right) in *.
+    apply square_of_highs in B, C, D. fold b in B. fold c in C. fold d in D.
+    assert (Right : exact env right =
+      factor right * (square (triple env 100) * square (triple env 103) * square (triple env 106)))
+      by (unfold right; lay_open; ring).
+    assert (R0 := least_value u 1 1 env right r U Hr ltac:(unfold right; sizes)). rewrite Right in R0.
+    assert (HG : 0 <= gamma u (count 1 1 right) <= most u (count 1 1 right)) by (unfold right; ranges).
+    assert (G1 : most u (count 1 1 right) <= 1000 * u).
+    { unfold right; compute_counts; unfold most; simpl; rewrite u_value; lra. }
+    set (G := gamma u (count 1 1 right)) in *.
+    assert (K0 : 0 <= factor right) by (unfold right; apply constant_positive; lia).
+    set (K := factor right) in *.
+    assert (Pb := square_positive b). assert (Pc := square_positive c). assert (Pd := square_positive d).
+    assert (PP : P * P = square b * square c * square d) by (unfold P; rewrite <- !length_square; ring).
+    assert (All := product_of_highs (1 - 2 * u) _ _ _ _ _ _ ltac:(lra) Pb Pc Pd B C D). rewrite <- PP in All.
+    eapply Rle_trans; [| exact R0].
+    set (Q := square (triple env 100) * square (triple env 103) * square (triple env 106)) in *.
+    assert (PP0 : 0 <= P * P) by nra.
+    assert (Lost : 1 - / 1099511627776 <= (1 - 2 * u) * (1 - 2 * u) * (1 - 2 * u) * (1 - G)).
+    { apply Rle_trans with ((1 - 2 * u) * (1 - 2 * u) * (1 - 2 * u) * (1 - 1000 * u)).
+      - rewrite u_value. lra.
+      - apply Rmult_le_compat_l; [repeat apply Rmult_le_pos; lra | lra]. }
+    apply Rle_trans with (K * (P * P) * ((1 - 2 * u) * (1 - 2 * u) * (1 - 2 * u) * (1 - G))).
+    { apply Rmult_le_compat_l; [apply Rmult_le_pos; assumption | exact Lost]. }
+    replace (K * (P * P) * ((1 - 2 * u) * (1 - 2 * u) * (1 - 2 * u) * (1 - G)))
+      with (K * ((1 - 2 * u) * (1 - 2 * u) * (1 - 2 * u) * (P * P)) * (1 - G)) by ring.
+    apply Rmult_le_compat_r; [lra |]. apply Rmult_le_compat_l; assumption.
+Qed.
+
+(* What is left of a limit that the rounding of high words makes smaller. *)
+Lemma limit_of_highs K M Q G r c :
+  0 <= K -> 0 <= M -> 0 <= G <= 1000 * u -> 1 - 2000 * u <= c -> c * M <= Q -> K * Q * (1 - G) <= r ->
+  K * M * (1 - / 1099511627776) <= r.
+Proof.
+  intros K0 M0 HG C HQ R. assert (U := u_positive). assert (U1 : u <= / 16384) by (rewrite u_value; lra).
+  apply Rle_trans with (K * Q * (1 - G)); [| assumption].
+  assert (Lost : 1 - / 1099511627776 <= c * (1 - G)).
+  { apply Rle_trans with ((1 - 2000 * u) * (1 - 1000 * u)); [rewrite u_value; lra |].
+    apply Rmult_le_compat; lra. }
+  apply Rle_trans with (K * M * (c * (1 - G))); [apply Rmult_le_compat_l; [apply Rmult_le_pos |]; assumption |].
+  replace (K * M * (c * (1 - G))) with (K * (c * M) * (1 - G)) by ring.
+  apply Rmult_le_compat_r; [lra |]. apply Rmult_le_compat_l; assumption.
+Qed.
+
+Lemma largest_of_highs c a b A B : 0 <= c -> c * a <= A -> c * b <= B -> c * Rmax a b <= Rmax A B.
+Proof.
+  intros. unfold Rmax at 1. destruct (Rle_dec a b).
+  - eapply Rle_trans; [eassumption | apply Rmax_r].
+  - eapply Rle_trans; [eassumption | apply Rmax_l].
+Qed.
+
+(* side_of_circle_double_double, of pairs that are differences of unit vectors within 2^-99: H is the longest
+   one. The filter refuses H^2 below a half of its bound. *)
+Theorem circle_double_double_filter env eb ec ed ep W r H :
+  let b := triple env 0 in
+  let c := triple env 3 in
+  let d := triple env 6 in
+  let T := constant 1 (-99) in
+  let h := exact env circle_double_double_2_left in
+  length (difference (difference eb ep) b) <= T -> length (difference (difference ec ep) c) <= T ->
+  length (difference (difference ed ep) d) <= T ->
+  H * H = Rmax (Rmax (square b) (square c)) (square d) -> / 562949953421312 <= H <= 2049 / 1024 ->
+  are_high env 0 -> are_high env 3 -> are_high env 6 ->
+  computes u2 3 7 env circle_double_double_High_109_of W -> is_high (env 109%nat) W ->
+  computes u 1 1 env circle_double_double_1_right r -> r < Rabs h ->
+  0 < h * - det (difference eb ep) (difference ec ep) (difference ed ep).
+Proof.
+  intros b c d T h Tb Tc Td HM HH B C D HW Hh Hr L. assert (U := u_positive).
+  assert (U1 : u <= / 16384) by (rewrite u_value; lra).
+  assert (Below : forall x, square x <= H * H -> length x <= H).
+  { intros x S. rewrite <- length_square in S. assert (P := length_positive x).
+    apply Rnot_lt_le. intro N. nra. }
+  assert (Mb : square b <= H * H) by (rewrite HM; eapply Rle_trans; [apply Rmax_l | apply Rmax_l]).
+  assert (Mc : square c <= H * H) by (rewrite HM; eapply Rle_trans; [apply Rmax_r | apply Rmax_l]).
+  assert (Md : square d <= H * H) by (rewrite HM; apply Rmax_r).
+  apply circle_double_double_limit with (env := env) (V := - W) (r := r) (H := H); try assumption;
+    try (apply Below; assumption).
+  - apply computes_opposite. rewrite <- circle_takes_the_determinant. assumption.
+  - unfold is_high in Hh. unfold h. simpl. rewrite Rabs_Ropp.
+    replace (- env 109%nat - - W) with (- (env 109%nat - W)) by ring. rewrite Rabs_Ropp. assumption.
+  - set (right := circle_double_double_1_right) in *.
+    apply square_of_highs in B, C, D. fold b in B. fold c in C. fold d in D.
+    set (Q := Rmax (Rmax (square (triple env 100)) (square (triple env 103))) (square (triple env 106))).
+    assert (Right : exact env right = factor right * Q) by (unfold right, Q; lay_open; reflexivity).
+    assert (Size : size env right = exact env right).
+    { unfold right. lay_open. rewrite ?Rabs_square.
+      rewrite (Rabs_pos_eq (constant _ _)) by (apply constant_positive; lia). reflexivity. }
+    assert (R0 := least_value u 1 1 env right r U Hr Size). rewrite Right in R0.
+    assert (HG : 0 <= gamma u (count 1 1 right) <= most u (count 1 1 right)) by (unfold right; ranges).
+    assert (G1 : most u (count 1 1 right) <= 1000 * u).
+    { unfold right; compute_counts; unfold most; simpl; rewrite u_value; lra. }
+    apply limit_of_highs with (Q := Q) (G := gamma u (count 1 1 right)) (c := 1 - 2 * u); try lra.
+    + unfold right. apply constant_positive. lia.
+    + nra.
+    + rewrite HM. unfold Q. repeat apply largest_of_highs; try assumption; lra.
+Qed.
+
+(* The high word of a sum of squares in pairs. *)
+Lemma high_of_sum g W t env :
+  computes u2 3 7 env t W -> size env t = exact env t -> is_high g W -> (count 3 7 t <= 100)%nat ->
+  (1 - 2000 * u) * exact env t <= g.
+Proof.
+  intros HW S Hg N. assert (U := u_positive). assert (U1 : u <= / 16384) by (rewrite u_value; lra).
+  assert (P := size_positive env t). rewrite S in P.
+  assert (E := least_value u2 3 7 env t W u2_positive HW S).
+  assert (G := gamma_monotone u2 u2_positive _ _ N).
+  assert (G0 : gamma u2 100 <= most u2 100)
+    by (apply gamma_bound; [apply u2_positive | simpl; rewrite u2_value; lra]).
+  assert (G1 : most u2 100 <= u) by (unfold most; simpl; rewrite u2_value, u_value; lra).
+  assert (W0 : (1 - u) * exact env t <= W).
+  { eapply Rle_trans; [| exact E]. rewrite Rmult_comm. apply Rmult_le_compat_l; lra. }
+  assert (Wp : 0 <= W) by nra.
+  unfold is_high in Hg. apply Rabs_le_inv in Hg.
+  assert (Gp : 0 <= g).
+  { apply Rnot_lt_le. intro Neg. rewrite (Rabs_left g) in Hg by assumption. nra. }
+  rewrite (Rabs_pos_eq g) in Hg by assumption. nra.
+Qed.
+
+(* compare_angle_double_double, of pairs that are differences of unit vectors within 2^-98, as differences of
+   pairs of doubles are: H is the longer one. *)
+Theorem angle_double_double_filter env eb ea ep W Wa Wb l r H :
+  let b := triple env 0 in
+  let a := triple env 3 in
+  let T := constant 1 (-98) in
+  let h := exact env angle_double_double_1_left in
+  length (difference (difference eb ep) b) <= T -> length (difference (difference ea ep) a) <= T ->
+  H * H = Rmax (square a) (square b) -> 0 < H <= 2049 / 1024 ->
+  computes u2 3 7 env angle_double_double_High_100_of W -> is_high (env 100%nat) W ->
+  computes u2 3 7 env angle_double_double_High_101_of Wa -> is_high (env 101%nat) Wa ->
+  computes u2 3 7 env angle_double_double_High_102_of Wb -> is_high (env 102%nat) Wb ->
+  Rabs (l - h * h) <= u * Rabs (h * h) -> computes u 1 1 env angle_double_double_0_right r -> r < l ->
+  0 < h * (square (difference eb ep) - square (difference ea ep)).
+Proof.
+  intros b a T h Tb Ta HM HH HW Hh HWa Ha HWb Hb Hl Hr L. assert (U := u_positive).
+  assert (U1 : u <= / 16384) by (rewrite u_value; lra).
+  assert (Below : forall x, square x <= H * H -> length x <= H).
+  { intros x S. rewrite <- length_square in S. assert (P := length_positive x).
+    apply Rnot_lt_le. intro N. nra. }
+  assert (Ma : square a <= H * H) by (rewrite HM; apply Rmax_l).
+  assert (Mb : square b <= H * H) by (rewrite HM; apply Rmax_r).
+  apply angle_double_double_limit with (env := env) (V := W) (l := l) (r := r) (H := H); try assumption;
+    try (apply Below; assumption).
+  set (right := angle_double_double_0_right) in *.
+  assert (A : (1 - 2000 * u) * square a <= env 101%nat).
+  { replace (square a) with (exact env angle_double_double_High_101_of) by (unfold a; lay_open; ring).
+    apply high_of_sum with (W := Wa); try assumption; [sizes | compute_counts; lia]. }
+  assert (B : (1 - 2000 * u) * square b <= env 102%nat).
+  { replace (square b) with (exact env angle_double_double_High_102_of) by (unfold b; lay_open; ring).
+    apply high_of_sum with (W := Wb); try assumption; [sizes | compute_counts; lia]. }
+  assert (Pa := square_positive a). assert (Pb := square_positive b).
+  assert (A0 : 0 <= env 101%nat) by nra. assert (B0 : 0 <= env 102%nat) by nra.
+  assert (Size : size env right = exact env right).
+  { unfold right. simpl. rewrite (Rabs_pos_eq (env 101%nat)), (Rabs_pos_eq (env 102%nat)) by assumption.
+    rewrite (Rabs_pos_eq (constant _ _)) by (apply constant_positive; lia). reflexivity. }
+  assert (R0 := least_value u 1 1 env right r U Hr Size).
+  assert (HG : 0 <= gamma u (count 1 1 right) <= most u (count 1 1 right)) by (unfold right; ranges).
+  assert (G1 : most u (count 1 1 right) <= 1000 * u).
+  { unfold right; compute_counts; unfold most; simpl; rewrite u_value; lra. }
+  replace (constant 1 (-40)) with (/ 1099511627776) by (unfold constant; simpl; lra).
+  apply limit_of_highs with (Q := Rmax (env 101%nat) (env 102%nat)) (G := gamma u (count 1 1 right))
+    (c := 1 - 2000 * u); try assumption; try lra.
+  - unfold right. apply constant_positive. lia.
+  - rewrite HM. apply largest_of_highs; try assumption; lra.
+Qed.
+
+(* is_within_angle_double_double has a given number in place of one distance, and fewer roundings. *)
+Lemma within_angle_double_double_compares :
+  within_angle_double_double_0_right = Times (part_1 angle_double_double_0_right) (Largest (Given 101) (Given 0)) /\
+  within_angle_double_double_1_left = Given 100 /\
+  within_angle_double_double_High_100_of = Minus within_angle_double_double_High_101_of (Given 0) /\
+  within_angle_behind_double_double_0_right = within_angle_double_double_0_right /\
+  within_angle_behind_double_double_1_left = Given 100 /\
+  within_angle_behind_double_double_High_100_of = within_angle_double_double_High_100_of /\
+  forall env, exact env within_angle_double_double_High_101_of = square (triple env 1).
+Proof. repeat split. Qed.

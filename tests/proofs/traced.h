@@ -17,11 +17,14 @@
 #include <functional>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <ranges>
+#include <set>
 #include <span>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -32,8 +35,9 @@ namespace rondel::proofs {
 
 // An operation and its operands, as places in the list of all operations.
 struct Operation {
-  std::string
-      name;  // Given, Constant, Opposite, Absolute, Plus, Minus, Times, Quotient, Root, Largest
+  // Given, Constant, Opposite, Absolute, Scaled, Plus, Minus, Times, Quotient, Root, Largest, Least; Pair,
+  // a pair of doubles that is given; High and Low, the words of a pair; Word, a given word of one.
+  std::string name;
   std::vector<int> operands;
   double value = 0;
 };
@@ -46,6 +50,12 @@ struct Comparison {
 
 inline std::vector<Operation> operations;
 inline std::vector<Comparison> comparisons;
+
+// Where a ladder asks its next rung.
+struct NextRung {};
+
+// Asked for the outcome of a comparison, in place of the numbers.
+inline std::function<bool(const Comparison&)> outcome;
 
 inline int add_operation(std::string name, std::vector<int> operands, double value) {
   operations.push_back({std::move(name), std::move(operands), value});
@@ -102,9 +112,9 @@ constexpr Number& operator*=(Number& a, const Number& b) { return a = a * b; }
 inline Number last_taken_apart;
 
 constexpr bool compared(const Number& a, const Number& b, bool is_greater) {
-  if (!std::is_constant_evaluated() && (a.place >= 0 || b.place >= 0))
-    comparisons.push_back({a.recorded(), b.recorded(), is_greater});
-  return is_greater;
+  if (std::is_constant_evaluated() || (a.place < 0 && b.place < 0)) return is_greater;
+  comparisons.push_back({a.recorded(), b.recorded(), is_greater});
+  return outcome ? outcome(comparisons.back()) : is_greater;
 }
 constexpr bool operator>(const Number& a, const Number& b) {
   return compared(a, b, a.value > b.value);
@@ -118,6 +128,45 @@ inline Number operator+(const volatile Number& a, const volatile Number& /*b*/) 
   return {2 * a.value, -1};
 }
 inline bool operator!=(const Number& a, const volatile Number& b) { return a.value != b.value; }
+
+// --- pairs of doubles (exact/eft.h) ---
+
+inline std::map<std::pair<int, int>, int> given_pairs;
+
+// The given pair of two places: of its words, or of two given pairs whose difference it is.
+inline int given_pair_of(int a, int b) {
+  const auto [found, is_new] = given_pairs.try_emplace({a, b}, -1);
+  if (is_new) found->second = add_operation("Pair", {}, 0);
+  return found->second;
+}
+
+inline const Operation* operation_at(int place) {
+  return place < 0 ? nullptr : &operations[static_cast<std::size_t>(place)];
+}
+inline bool is_given_pair(int place) {
+  const Operation* operation = operation_at(place);
+  return operation != nullptr && operation->name == "Pair";
+}
+
+// -1 for a constant. A double is a pair whose low word is 0.
+inline int place_of_pair(const Number& hi, const Number& lo) {
+  if (lo.place < 0 && lo.value == 0) return hi.place;
+  const Operation* high = operation_at(hi.place);
+  const Operation* low = operation_at(lo.place);
+  if (high != nullptr && low != nullptr && high->name == "High" && low->name == "Low" &&
+      high->operands == low->operands)
+    return high->operands[0];
+  return hi.place < 0 && lo.place < 0 ? -1 : given_pair_of(hi.recorded(), lo.recorded());
+}
+
+// The place of a word of a pair.
+inline int word(const char* name, int place, const Number& value) {
+  const Operation* pair = operation_at(place);
+  if (pair == nullptr || value.place == place) return value.place;
+  const Operation* known = operation_at(value.place);
+  if (known != nullptr && known->name == name && known->operands[0] == place) return value.place;
+  return add_operation(name, {place}, value.value);
+}
 
 }  // namespace rondel::proofs
 
