@@ -18,7 +18,7 @@ import re
 import sys
 
 import tomllib
-from make_scripts import read_formulas
+from make_scripts import factor, read_formulas
 
 ZERO = ["Constant", "0", "0"]
 
@@ -101,6 +101,9 @@ def mistakes(formulas, proofs):
             if wrong:
                 found.append(f"{comparison[0]} {wrong}")
         seen.update(place for place, _, _ in comparisons)
+    for place, other in listed["same_constant"]:
+        if factor(formulas[f"{place}_right"]) != factor(formulas[f"{other}_right"]):
+            found.append(f"{place} has another constant than {other}")
     return found + [f"{place} is listed as a guard and is none" for place in sorted(set(guards) - seen)]
 
 

@@ -352,6 +352,15 @@ void write_all() {
     const Vector p = given_vector(0.6, 0, 0.8);
     predicates::side_of_circle_filter(b, c, d, p);
   });
+  write("sure_side", [] {
+    const Vector b = given_vector(0.9, 0.1, 0.2);
+    const Vector c = given_vector(0.2, 0.8, 0.1);
+    const Vector d = given_vector(0.1, 0.3, 0.7);
+    const Vector p = given_vector(0.05, 0.02, 0.01);
+    const Vector bc = c - b;
+    const Vector bd = d - b;
+    predicates::sure_side_of_face(b, cross(bc, bd), dot(bc, bc), dot(bd, bd), p);
+  });
   write("angle", [] {
     const Vector b = given_vector(0.9, 0.1, 0.2);
     const Vector a = given_vector(0.2, 0.8, 0.1);

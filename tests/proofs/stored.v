@@ -373,6 +373,56 @@ Proof.
   assert (M' := Rmult_le_compat_r N _ _ ltac:(lra) Margin). lra.
 Qed.
 
+(* sure_side_of_face: the same with b and p exchanged, and the opposite sign. *)
+Fixpoint renamed (f : nat -> nat) (t : term) : term :=
+  match t with
+  | Given n => Given (f n)
+  | Constant m e => Constant m e
+  | Opposite a => Opposite (renamed f a)
+  | Absolute a => Absolute (renamed f a)
+  | Scaled a e => Scaled (renamed f a) e
+  | Largest a b => Largest (renamed f a) (renamed f b)
+  | Least a b => Least (renamed f a) (renamed f b)
+  | Plus a b => Plus (renamed f a) (renamed f b)
+  | Minus a b => Minus (renamed f a) (renamed f b)
+  | Times a b => Times (renamed f a) (renamed f b)
+  end.
+
+Lemma computes_renamed unit s p env f t r :
+  computes unit s p env (renamed f t) r -> computes unit s p (fun n => env (f n)) t r.
+Proof.
+  revert r. induction t; intros r H; simpl in H; inversion H; subst;
+    [apply (computes_given unit s p (fun n => env (f n))) | econstructor; eauto ..].
+Qed.
+
+(* The first point and the last one. *)
+Definition exchanged (n : nat) : nat := if Nat.ltb n 3 then n + 9 else if Nat.ltb n 9 then n else n - 9.
+
+Lemma sure_side_compares_what_circle_plane_does :
+  renamed exchanged circle_plane_1_left = Opposite sure_side_1_left /\
+  renamed exchanged circle_plane_0_right = sure_side_0_right.
+Proof. split; reflexivity. Qed.
+
+Theorem sure_side_filter env eb ec ed ep V l r :
+  is_stored (triple env 0) eb -> is_stored (triple env 3) ec -> is_stored (triple env 6) ed ->
+  is_stored (triple env 9) ep ->
+  computes u 1 1 env sure_side_1_left V -> Rabs (l - V * V) <= u * Rabs (V * V) ->
+  computes u 1 1 env sure_side_0_right r -> r < l ->
+  0 < V * - det (difference eb ep) (difference ec ep) (difference ed ep).
+Proof.
+  intros Sb Sc Sd Sp HV Hl Hr L. destruct sure_side_compares_what_circle_plane_does as [Left Right].
+  assert (HV' : computes u 1 1 env (renamed exchanged circle_plane_1_left) (- V))
+    by (rewrite Left; apply computes_opposite; assumption).
+  rewrite <- Right in Hr. apply computes_renamed in HV', Hr.
+  assert (P : 0 < - V * - det (difference ep eb) (difference ec eb) (difference ed eb)).
+  { apply circle_plane_filter with (env := fun n => env (exchanged n)) (l := l) (r := r); try assumption.
+    replace (- V * - V) with (V * V) by ring. assumption. }
+  replace (det (difference ep eb) (difference ec eb) (difference ed eb))
+    with (- det (difference eb ep) (difference ec ep) (difference ed ep)) in P
+    by (unfold det, dot, cross, difference; simpl; ring).
+  lra.
+Qed.
+
 (* --- circle_bound: |b-p|^2 det(p, c-p, d-p) + ... --- *)
 
 Lemma circle_margin E G T e A H w :
