@@ -9,7 +9,9 @@
 //
 // A filter runs on points of which it is sure; all comparisons and operations of this run are recorded.
 // Then it runs again for each outcome that its comparisons may have. A comparison that only another
-// outcome leads to, as a second try of an unsure filter, is an error: no theorem would be about it.
+// outcome leads to, as a second try of an unsure filter, is an error: no theorem would be about it. So is
+// a sign where no comparison with a limit has held. Branches on equality, or on exponents, are those of the
+// points.
 //
 // Comparisons with a constant other than 0 guard against underflow; they, and those that are named as
 // choices, keep their outcome in these runs.
@@ -168,6 +170,21 @@ std::ostringstream errors;
 // What the sure runs compare, with their outcomes.
 std::map<std::string, bool> known;
 
+// Whether a run has a comparison with a limit that held. Signs and what is fixed are none.
+bool has_accepted(const std::vector<bool>& outcomes, const std::map<std::string, bool>& fixed) {
+  std::size_t num_asked = 0;
+  for (const Comparison& comparison : comparisons) {
+    if (fixed.contains(whole(comparison))) continue;
+    const auto is_zero = [](int place) {
+      const Operation& operation = operations[static_cast<std::size_t>(place)];
+      return operation.name == "Constant" && operation.value == 0;
+    };
+    const bool is_sign = is_zero(comparison.left) || is_zero(comparison.right);
+    if (outcomes[num_asked++] && !is_sign) return true;
+  }
+  return false;
+}
+
 // Runs a filter for all outcomes of its comparisons but those that are fixed.
 template <class Filter>
 void run_all(const std::string& name, Filter filter, const std::map<std::string, bool>& fixed) {
@@ -182,11 +199,15 @@ void run_all(const std::string& name, Filter filter, const std::map<std::string,
       if (num_asked == outcomes.size()) outcomes.push_back(false);
       return static_cast<bool>(outcomes[num_asked++]);
     };
+    bool is_answered = false;
     try {
-      filter();
+      is_answered = static_cast<int>(filter()) != 0;
     } catch (const NextRung&) {
     }
     outcome = nullptr;
+    if (is_answered && !has_accepted(outcomes, fixed)) {
+      errors << name << " answers where no comparison has accepted\n";
+    }
     for (const Comparison& comparison : comparisons) {
       const std::string text = whole(comparison);
       if (!known.contains(text)) unknown.insert(text);
@@ -232,7 +253,11 @@ void write_comparisons(const std::string& name) {
 template <class Filter>
 void write_sure(const std::string& name, Filter filter) {
   start_run();
-  filter();
+  try {
+    filter();
+  } catch (const NextRung&) {
+    errors << name << " is not sure of points of which it should be\n";
+  }
   std::cout << "\n(* " << name << ": " << num_given << " numbers are given. *)\n";
   cuts.clear();
   scaled.clear();
@@ -280,68 +305,68 @@ void write_all() {
     const Vector c = given_vector(0.2, 0.8, 0.1);
     const Vector d = given_vector(0.1, 0.3, 0.7);
     const Vector p = given_vector(0.05, 0.02, 0.01);
-    predicates::side_of_plane_filter(b, c, d, p);
+    return predicates::side_of_plane_filter(b, c, d, p);
   });
   write("orientation", [] {
     const Point a = given_point(0.9, 0.1, 0.2);
     const Point b = given_point(0.2, 0.8, 0.1);
     const Point c = given_point(0.1, 0.3, 0.7);
     const Point o = given_point(0.05, 0.02, 0.01);
-    predicates::filter(a, b, c, o);
+    return predicates::filter(a, b, c, o);
   });
   write("orientation_extended", [] {
     const Point a = given_point(0.9, 0.1, 0.2);
     const Point b = given_point(0.2, 0.8, 0.1);
     const Point c = given_point(0.1, 0.3, 0.7);
     const Point o = given_point(0.05, 0.02, 0.01);
-    predicates::orientation_extended(a, b, c, o);
+    return predicates::orientation_extended(a, b, c, o);
   });
   write("orientation_wide", [] {
     const Point a = given_point(0.9, 0.1, 0.2);
     const Point b = given_point(0.2, 0.8, 0.1);
     const Point c = given_point(0.1, 0.3, 0.7);
     const Point o = given_point(0.05, 0.02, 0.01);
-    predicates::wide_filter(a, b, c, o);
+    return predicates::wide_filter(a, b, c, o);
   });
   write("plane_double_double", [] {
     const predicates::PlaneSteps steps = {given_pairs_of_doubles(0.9, 0.1, 0.2),
                                           given_pairs_of_doubles(0.2, 0.8, 0.1),
                                           given_pairs_of_doubles(0.1, 0.3, 0.7)};
-    predicates::side_of_plane_double_double(steps);
+    return predicates::side_of_plane_double_double(steps);
   });
   write("circle_double_double", [] {
     const SplitPoint b = given_split_point(0.9, 0.1, 0.2);
     const SplitPoint c = given_split_point(0.2, 0.8, 0.1);
     const SplitPoint d = given_split_point(0.1, 0.3, 0.7);
     const SplitPoint p = given_split_point(0.05, 0.02, 0.01);
-    predicates::side_of_circle_double_double(b, c, d, p);
+    return predicates::side_of_circle_double_double(b, c, d, p);
   });
   write("angle_double_double", [] {
     const SplitPoint a = given_split_point(0.2, 0.8, 0.1);
     const SplitPoint b = given_split_point(0.9, 0.1, 0.2);
     const SplitPoint p = given_split_point(0.05, 0.02, 0.01);
-    predicates::compare_angle_double_double(a, b, p);
+    return predicates::compare_angle_double_double(a, b, p);
   });
   for (const bool is_positive : {true, false}) {
     write(is_positive ? "within_angle_double_double" : "within_angle_behind_double_double", [=] {
       const Number t = given(0.1);
       const SplitPoint a = given_split_point(0.2, 0.8, 0.1);
       const SplitPoint p = given_split_point(0.05, 0.02, 0.01);
-      predicates::is_within_angle_double_double(a, p, {is_positive, t});
+      return predicates::is_within_angle_double_double(a, p, {is_positive, t});
     });
   }
   write("direction_orientation", [] {
     const Vector a = given_vector(0.9, 0.1, 0.2);
     const Vector b = given_vector(0.2, 0.8, 0.1);
     const Vector c = given_vector(0.1, 0.3, 0.7);
-    predicates::orientation_filter(a, b, c);
+    return predicates::orientation_filter(a, b, c);
   });
   write_sure("circle_plane", [] {
     const Vector b = given_vector(0.9, 0.1, 0.2);
     const Vector c = given_vector(0.2, 0.8, 0.1);
     const Vector d = given_vector(0.1, 0.3, 0.7);
     const Vector p = given_vector(0.05, 0.02, 0.01);
-    predicates::side_of_circle_filter(b, c, d, p);
+    return predicates::side_of_circle_filter(b, c, d, p);
   });
   write("circle", [] {
     // So close that the plain form is not sure.
@@ -350,7 +375,7 @@ void write_all() {
     const Vector c = given_vector(0.6 - 0.8 * h, 0, 0.8 + 0.6 * h);
     const Vector d = given_vector(0.6 + 0.8 * h, -h, 0.8 - 0.6 * h);
     const Vector p = given_vector(0.6, 0, 0.8);
-    predicates::side_of_circle_filter(b, c, d, p);
+    return predicates::side_of_circle_filter(b, c, d, p);
   });
   write("sure_side", [] {
     const Vector b = given_vector(0.9, 0.1, 0.2);
@@ -359,25 +384,25 @@ void write_all() {
     const Vector p = given_vector(0.05, 0.02, 0.01);
     const Vector bc = c - b;
     const Vector bd = d - b;
-    predicates::sure_side_of_face(b, cross(bc, bd), dot(bc, bc), dot(bd, bd), p);
+    return predicates::sure_side_of_face(b, cross(bc, bd), dot(bc, bc), dot(bd, bd), p);
   });
   write("angle", [] {
     const Vector b = given_vector(0.9, 0.1, 0.2);
     const Vector a = given_vector(0.2, 0.8, 0.1);
     const Vector p = given_vector(0.05, 0.02, 0.01);
-    predicates::compare_angle_filter(dot(a - p, a - p), dot(b - p, b - p));
+    return predicates::compare_angle_filter(dot(a - p, a - p), dot(b - p, b - p));
   });
   write("within_angle", [] {
     const Vector a = given_vector(0.2, 0.8, 0.1);
     const Vector p = given_vector(0.05, 0.02, 0.01);
     const Number t = given(0.1);
-    predicates::is_within_angle_filter(a, p, {true, t});
+    return predicates::is_within_angle_filter(a, p, {true, t});
   });
   write("within_angle_behind", [] {
     const Vector a = given_vector(0.2, 0.8, 0.1);
     const Vector p = given_vector(0.05, 0.02, 0.01);
     const Number t = given(0.1);
-    predicates::is_within_angle_filter(a, p, {false, t});
+    return predicates::is_within_angle_filter(a, p, {false, t});
   });
   write("power", [] {
     const Point a = given_point(0.2, 0.8, 0.1);
@@ -385,7 +410,7 @@ void write_all() {
     const Point p = given_point(0.5, 0.2, 0.1);
     const Point o = given_point(0.05, 0.02, 0.01);
     predicates::FourPoints<Model::weighted> points{{a, b, p, p}, o};
-    (void)predicates::compare_power(points, 0, 1, 2);
+    return predicates::compare_power(points, 0, 1, 2).sign;
   });
   write("within_power", [] {
     const Point a = given_point(0.2, 0.8, 0.1);
@@ -393,13 +418,13 @@ void write_all() {
     const Point o = given_point(0.05, 0.02, 0.01);
     const Number t = given(0.1);
     const Number squared_radius = given(2.0);
-    predicates::is_within_power_filter(a, p, {true, t}, {o, squared_radius});
+    return predicates::is_within_power_filter(a, p, {true, t}, {o, squared_radius});
   });
   write("turn", [] {
     const predicates::Pair o = given_pair(0.1, 0.2);
     const predicates::Pair p = given_pair(0.9, 0.3);
     const predicates::Pair q = given_pair(0.4, 0.7);
-    predicates::filter(o, p, q);
+    return predicates::filter(o, p, q);
   });
   write(
       "ray_order",
@@ -407,13 +432,13 @@ void write_all() {
         const Point a = given_point(0.9, 0.1, 0.2);
         const Point b = given_point(0.8, 0.3, 0.1);
         const Point o = given_point(0.05, 0.02, 0.01);
-        predicates::compare_rays(a, b, o);
+        return predicates::compare_rays(a, b, o);
       },
       [] {
         const Vector a = given_vector(0.9, 0.1, 0.2);
         const Vector b = given_vector(0.8, 0.3, 0.1);
         const Vector o = given_vector(0.05, 0.02, 0.01);
-        predicates::compare_slopes_filter(a - o, b - o, 1, 0);
+        return predicates::compare_slopes_filter(a - o, b - o, 1, 0);
       });
   write(
       "line",
@@ -421,14 +446,14 @@ void write_all() {
         const Point p = given_point(0.9, 0.1, 0.2);
         const Point q = given_point(0.2, 0.8, 0.1);
         const Point y = given_point(0.1, 0.3, 0.7);
-        (void)overlay::TracedLine(p, q).is_left(y);
+        return overlay::TracedLine(p, q).is_left(y);
       },
       [] {
         const Point p = given_point(0.9, 0.1, 0.2);
         const Point q = given_point(0.2, 0.8, 0.1);
         const Point y = given_point(0.1, 0.3, 0.7);
         const overlay::TracedLine line(p, q);
-        (void)line.is_sure(line.rough_side(y));
+        return line.is_sure(line.rough_side(y));
       });
   write(
       "edge",
@@ -436,39 +461,39 @@ void write_all() {
         const Point y = given_point(0.9, 0.1, 0.2);
         const Point z = given_point(0.2, 0.8, 0.1);
         const Point p = given_point(0.1, 0.3, 0.7);
-        (void)overlay::CoverEdge(y, z).is_left(p);
+        return overlay::CoverEdge(y, z).is_left(p);
       },
       [] {
         const Point y = given_point(0.9, 0.1, 0.2);
         const Point z = given_point(0.2, 0.8, 0.1);
         const Point p = given_point(0.1, 0.3, 0.7);
         const overlay::CoverEdge edge(y, z);
-        (void)edge.is_sure(edge.scaled_distance(p));
+        return edge.is_sure(edge.scaled_distance(p));
       });
   write("side", [] {
     const Point a = given_point(0.9, 0.1, 0.2);
     const Point b = given_point(0.2, 0.8, 0.1);
     const Point p = given_point(0.1, 0.3, 0.7);
-    (void)arrangement::SidedArc(a, b).side(p);
+    return arrangement::SidedArc(a, b).side(p);
   });
   write("change", [] {
     const Point a = given_point(0.9, 0.1, 0.2);
     const Point b = given_point(0.2, 0.8, 0.1);
     const Point y = given_point(0.1, 0.3, 0.7);
-    overlay::sign_of_change(a, b, y);
+    return overlay::sign_of_change(a, b, y);
   });
   write(
       "change_at_end",
       [] {
         const Point p = given_point(0.9, 0.1, 0.2);
         const Point q = given_point(0.2, 0.8, 0.1);
-        (void)overlay::TracedLine(p, q).is_left(p);
+        return overlay::TracedLine(p, q).is_left(p);
       },
       [] {
         const Point p = given_point(0.9, 0.1, 0.2);
         const Point q = given_point(0.2, 0.8, 0.1);
         const overlay::TracedLine line(p, q);
-        overlay::sign_of_change_at_end(p, line.step(), p);
+        return overlay::sign_of_change_at_end(p, line.step(), p);
       });
   write("near_end",
         [] {
@@ -477,7 +502,7 @@ void write_all() {
           const Point from = given_point(0.9, 0.1, 0.2);
           const Point to = given_point(0.2, 0.8, 0.1);
           const Point p = given_point(0.9, 0.2, 0.2);
-          overlay::sign_by_nearer_end(normal, limit, from, to, p);
+          return overlay::sign_by_nearer_end(normal, limit, from, to, p);
         },
         {0});
   write_sure("direction", [] {
@@ -494,7 +519,7 @@ void write_all() {
     const predicates::Pair a = given_pair(0.1, 0.2);
     const predicates::Pair b = given_pair(0.9, 0.3);
     const predicates::Pair c = given_pair(0.7, 0.1);  // to the right, which is asked last
-    overlay::side_of_line({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
+    return overlay::side_of_line({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
   });
 }
 
