@@ -111,6 +111,16 @@ std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteT
   return read_edge_table(options.constraints, table);
 }
 
+// Leaves out columns of the targets that have the name of a field: the field stands in their place.
+void drop_columns_of(const FieldSet& fields, Targets& targets) {
+  for (const FieldArray& array : fields.arrays) {
+    std::vector<std::string> names = names_of_fields(array, fields.axes);
+    names.push_back(array.name);
+    std::erase_if(targets.side.columns,
+                  [&](const Column& column) { return std::ranges::count(names, column.name) > 0; });
+  }
+}
+
 // Returns the targets as netCDF of fields gets them; the side of the targets is that of weights.
 WeightSide side_with_cells(const Job& job, const InterpolateOptions& options,
                            const Targets& targets, FieldSet& fields) {
@@ -141,6 +151,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
     array.values = carrier.carry(column_values(table, name, "--value"));
     fields.arrays.push_back(std::move(array));
   }
+  drop_columns_of(fields, targets);
   const WeightSide side = side_with_cells(job, options, targets, fields);
   job.time(Stage::write,
            [&] { write_fields(options.common.target(), fields, side, options.netcdf); });
@@ -179,6 +190,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
+  drop_columns_of(out, targets);
   const WeightSide side = side_with_cells(job, options, targets, out);
   FieldWriter writer(options.common.target(), out, side, options.netcdf, job.execution());
   tell(writer.remarks());
