@@ -492,17 +492,14 @@ class Netcdf4(unittest.TestCase):
                 self.assertEqual(sorted(path.name for path in self.folder.iterdir()), before)
 
     def test_names_that_netcdf_refuses_are_named(self):
-        """netCDF-4 has names of 256 bytes at most, and none twice once letters and accents are composed."""
-        for first, second in (("a" * 257, "b"), ("\u00e9", "e\u0301")):
-            (self.folder / "t.csv").write_text(
-                f"lon,lat,{first},{second}\n" + "".join(f"{k},{k},1,2\n" for k in range(5))
-            )
-            named = ("--value", first, "--value", second)
-            said = self.run_tool(
-                "interpolate", "t.csv", *named, "--to", "t.csv", "-o", "t.nc4", status=1
-            )
-            refused = f"{first[:60]}..." if len(first) > 256 else second
-            self.assertIn(f'rondel: t.nc4: variable "{refused}": netCDF-C says: ', said)
+        """NetCDF-4 has no name twice once letters and accents are composed."""
+        first, second = "\u00e9", "e\u0301"
+        (self.folder / "t.csv").write_text(
+            f"lon,lat,{first},{second}\n" + "".join(f"{k},{k},1,2\n" for k in range(5))
+        )
+        named = ("--value", first, "--value", second)
+        said = self.run_tool("interpolate", "t.csv", *named, "--to", "t.csv", "-o", "t.nc4", status=1)
+        self.assertIn(f'rondel: t.nc4: variable "{second}": netCDF-C says: ', said)
 
     @unittest.skipUnless(sys.platform == "linux", "the loader of Linux tells what it loads")
     def test_the_library_of_the_environment_that_the_tool_is_in(self):
