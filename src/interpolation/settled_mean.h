@@ -38,9 +38,9 @@ inline constexpr double nearness = 0x1p-26;
 inline bool may_be_settled(double sum, double main) noexcept {
   const double step = std::abs(sum - main);
   const double near = nearness * std::abs(main) + std::numeric_limits<double>::min();
-  const unsigned is_far =
-      unsigned{step > near} & unsigned{step < std::numeric_limits<double>::infinity()};
-  return (is_far | unsigned{step == 0}) == 0;
+  const auto is_far = static_cast<unsigned>(step > near);
+  const auto is_finite = static_cast<unsigned>(step < std::numeric_limits<double>::infinity());
+  return ((is_far & is_finite) | static_cast<unsigned>(step == 0)) == 0;
 }
 
 // Collects the entries of a row.
