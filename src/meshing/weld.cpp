@@ -340,6 +340,10 @@ class Weld {
     CellRings made;
     const CellRings& polygons = features_.polygons;
     for (std::size_t i = 0; i < polygons.num_cells(); ++i) {
+      if (polygons.is_whole(i)) {  // since the round before
+        made.append_cell(polygons, i);
+        continue;
+      }
       std::vector<WeldedRing> rings;
       for (std::uint64_t r = polygons.cells[i]; r < polygons.cells[i + 1]; ++r) {
         rings.push_back(next_ring(r));
