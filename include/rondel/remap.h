@@ -147,7 +147,7 @@ RONDEL_API void apply_limited(const Remap& remap, std::span<const double> in, st
                               std::size_t num_fields = 1, const ApplyOptions& options = {},
                               const Execution& execution = {});
 
-/// What keeps values of order 2 within bounds.
+/// A limiter keeps values of order 2 within bounds.
 enum class RemapLimiter : std::uint8_t {
   none,
   bounds,  ///< apply_limited(): the bounds of the sources of a target, by the values of all targets

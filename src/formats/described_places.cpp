@@ -28,7 +28,7 @@
 namespace rondel::formats {
 namespace {
 
-// What a file says of its places as a whole.
+// The places of a file that are a list, or sites of more dimensions.
 struct ListOfPlaces {
   CoordinatePair own;                   // the longitudes and latitudes
   std::vector<std::string> dimensions;  // of both

@@ -27,9 +27,10 @@ struct DescribedPlaces {
 // a grid along axes, and for files that are no netCDF or may be read once only.
 //
 // 1. Columns are texts, the axis of the dimension of the places, numbers with a `cf_role`, and numbers
-//    along this dimension that an attribute `coordinates` lists.
-// 2. Texts that are not UTF-8, or have several dimensions, are left out, and so is everything where
-//    some places of the file are left out.
+//    along this dimension that an attribute `coordinates` lists; of sites all numbers along it.
+// 2. Columns have the rows of the places that have a longitude and a latitude.
+// 3. Texts that are not UTF-8 or have several dimensions, the name of a whole track, and what describes
+//    sites of two dimensions are left out, with a remark.
 DescribedPlaces described_places(const FileName& target, std::size_t num_places);
 
 }  // namespace rondel::formats

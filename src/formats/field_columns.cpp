@@ -89,20 +89,22 @@ bool are_numbers(const Column& column) {
   for (std::size_t row = 0; row < column.ends.size(); ++row) {
     const std::string_view cell = column.cell(row);
     if (is_missing_cell(io::trim(cell))) continue;
-    if (!io::is_json_number(cell)) return false;
+    if (!io::is_json_number(cell) || io::is_wide_integer(cell)) return false;
     has_number = true;
   }
-  Column numbers = column;
-  numbers.is_numeric = true;
-  return has_number && !numbers.has_wide_integers();
+  return has_number;
+}
+
+ColumnsOut::ColumnsOut(std::span<const Column> columns) : columns_(columns) {
+  for (const Column& column : columns) is_number_.push_back(are_numbers(column));
 }
 
 std::vector<VariableHeader> ColumnsOut::headers() const {
   std::vector<VariableHeader> headers;
   headers.reserve(columns_.size());
-  for (const Column& column : columns_) {
-    headers.push_back({.name = name_of_variable(column),
-                       .is_number = are_numbers(column),
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    headers.push_back({.name = name_of_variable(columns_[c]),
+                       .is_number = is_number_[c],
                        .dimensions = {"point"},
                        .shape = {1},
                        .texts = {}});
@@ -115,7 +117,6 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
   for (std::size_t c = 0; c < columns_.size(); ++c) {
     const Column& column = columns_[c];
     const std::string& name = names[c];
-    is_number_.push_back(are_numbers(column));
     // A dimension of length 0 would be a record dimension.
     std::size_t longest = 1;
     for (std::size_t i = 0; i < column.ends.size(); ++i) {
@@ -123,7 +124,7 @@ void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points,
     }
     lengths_.push_back(longest);
     io::NetcdfVariable made = variable(name, NetcdfType::float64, {points});
-    if (!is_number_.back()) {
+    if (!is_number_[c]) {
       const std::size_t length =
           out.add_dimension(take_name(shortened_name(name) + "_length", taken), longest);
       made = variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}});

@@ -47,7 +47,7 @@ bool are_numbers(const Column& column);
 class ColumnsOut {
  public:
   // Columns have a cell for each point.
-  explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}
+  explicit ColumnsOut(std::span<const Column> columns);
 
   // Returns headers with the names that programs accept for variables, one for each column.
   [[nodiscard]] std::vector<VariableHeader> headers() const;

@@ -43,7 +43,7 @@ bool is_of_storage(std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
 
-// Whose attributes they are. An array without points keeps its values: an axis, for example.
+// Attributes belong to one of these. An array without points keeps its values: an axis, for example.
 enum class AttributesOf : std::uint8_t { file, field, array_without_points };
 
 // True if an attribute does not hold for values at other points.

@@ -247,7 +247,8 @@ const LonLatGrid* RegridSide::lines_between() const {
   return lines_ ? &*lines_ : named_->lines();
 }
 
-// These are the areas of the overlay, so that sums are kept. Cells that a formula has are made a part at a time, so that they need not be in memory together.
+// These are the areas of the overlay, so that sums are kept. Cells that a formula has are made a part at a
+// time, so that they need not be in memory together.
 std::vector<double> RegridSide::areas(const Execution& execution) {
   constexpr std::size_t of_part = std::size_t{1} << 18U;
   if (num_stored() > 0 || cells_ || num_places() <= of_part) {

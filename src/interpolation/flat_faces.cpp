@@ -62,7 +62,7 @@ FlatFaces::FlatFaces(const Triangulation& triangulation, const topology::Mesh& m
       if (!triangulation.is_ghost(topology::face_of(h))) open.push_back(h);
     }
   }
-  // What is behind the two shorter sides of a flat face is next.
+  // The faces behind the two shorter sides of a flat face are next.
   while (!open.empty()) {
     const topology::Halfedge h = open.back();
     open.pop_back();

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What rounding leaves of a mean: the sum of weights times values, of weights that sum up to 1.
+// Means without what rounding does to them: sums of weights times values, of weights that sum up to 1.
 //
 //   weights        0.1  0.2  0.7        their sum in double precision: 0.9999999999999999
 //   values         280.1 of all         the sum of products:           280.09999999999997

@@ -24,7 +24,8 @@ void require_no_zero(std::string_view text, const std::string& what) {
   throw BadValue(what + " has the character \\u0000, at which texts end in other formats");
 }
 
-// True if the text is an integer that is no double.
+}  // namespace
+
 bool is_wide_integer(std::string_view text) {
   constexpr std::size_t max_digits = 15;  // 10^15 < 2^53
   if (text.size() <= max_digits) return false;
@@ -36,8 +37,6 @@ bool is_wide_integer(std::string_view text) {
   const int spare = std::countl_zero(number) + std::countr_zero(number);
   return number != 0 && spare < 64 - std::numeric_limits<double>::digits;
 }
-
-}  // namespace
 
 Column make_column(std::string_view name) {
   if (!is_utf8(name)) throw BadValue("the name of a column is not UTF-8");

@@ -24,6 +24,9 @@ Column make_column(std::string_view name);
 // Appends a cell. Throws BadValue if it is not UTF-8, since columns are written as JSON.
 void append_cell(Column& column, std::string_view cell);
 
+// True if the text is an integer that is no double.
+bool is_wide_integer(std::string_view text);
+
 // Appends a field of a table, in quotes if it needs them.
 void append_csv_field(std::string& text, std::string_view field, char separator);
 

@@ -52,7 +52,7 @@ struct ValueBounds {
   }
 };
 
-// What the values at targets are made of, beside the means.
+// Values at targets are made of these and the means.
 struct LimitedSlopes {
   std::vector<Point> gradients;     // 0 at sources without a value
   std::vector<ValueBounds> bounds;  // of each source and those around it
@@ -73,8 +73,7 @@ class SlopeLimiter {
   [[nodiscard]] std::vector<ValueBounds> bounds_around(std::span<const double> means) const;
 
   CellSet source_;
-  std::vector<Index>
-      places_;  // of the sources in the spatial order; empty for a grid, which has its own
+  std::vector<Index> places_;   // of the sources in the spatial order; empty for a grid
   std::vector<bool> is_there_;  // whether a source has values
   CellGradients unlimited_;
 };
