@@ -172,6 +172,17 @@ TEST_F(SmallRingsTest, parts_of_an_area_that_is_everywhere_change_nothing) {
   expect_same(made({part, rest}), made({rest}));
 }
 
+// A weld in rounds: the lake vanishes in one, and the other parts change in the next one.
+TEST_F(SmallRingsTest, a_world_whose_lake_vanishes_stays_whole) {
+  options_ = simplified_by_spacing(13.5);
+  const Geometries rest = polygon({reversed({{40, 20}, {40.00067, 20}, {40, 20.00067}})});
+  const Geometries part =
+      polygon({{{-20.0021, 9.9993}, {-20.0017, 9.9952}, {-20.001, 9.9961}, {-20.0006, 9.9965}}});
+  const Geometries beside = polygon({box(-25, 5, -20, 10)});
+  expect_same(triangles({{}, {rest, part, beside}, {}}, options_),
+              triangles({{}, {}, {}}, options_));
+}
+
 TEST_F(SmallRingsTest, parts_of_the_area_that_touch_are_one) {
   const Geometries part = polygon({{{9, 8}, {9.1, 8}, {9.1, 8.1}}});
   const Geometries apart = polygon({box(20, 0, 30, 8)});
