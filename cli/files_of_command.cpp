@@ -34,12 +34,6 @@ fs::path resolved(fs::path path) {
   return whole.has_filename() ? whole : whole.parent_path();  // of a folder with a slash behind it
 }
 
-// Two names are one file if they have the same device and number, or lead to the same path.
-bool are_one_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
-}
-
 // Returns the files that an input may be: FILE:NAME is FILE, and so is FILE:KM, unless there is a
 // file of the whole name.
 std::vector<std::string> readings(const std::string& input) {
@@ -70,6 +64,11 @@ void require_folder(const std::string& path) {
 }
 
 }  // namespace
+
+bool are_one_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
+}
 
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs) {

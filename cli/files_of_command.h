@@ -34,6 +34,9 @@ struct NamedFile {
 void require_separate_files(const std::vector<NamedFile>& inputs,
                             const std::vector<NamedFile>& outputs);
 
+/// True if two names are one file: they have the same device and number, or lead to the same path.
+bool are_one_file(const std::string& a, const std::string& b);
+
 /// Returns FILE and the text behind its last colon, except for the colon of C:\; the whole text if
 /// there is a file of that name.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);

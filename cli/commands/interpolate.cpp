@@ -111,8 +111,11 @@ std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteT
   return read_edge_table(options.constraints, table);
 }
 
-// Leaves out columns of the targets that have the name of a field: the field stands in their place.
-void drop_columns_of(const FieldSet& fields, Targets& targets) {
+// Where sites are their own targets, leaves out the columns that are interpolated: the field stands in
+// their place. A column of another file keeps its values, and gives way.
+void drop_own_columns(const InterpolateOptions& options, const FieldSet& fields, Targets& targets) {
+  const auto path_of = [](const FileName& file) { return file_and_variable(file).first.path; };
+  if (!are_one_file(path_of(options.source_file()), path_of(options.target_file()))) return;
   for (const FieldArray& array : fields.arrays) {
     std::vector<std::string> names = names_of_fields(array, fields.axes);
     names.push_back(array.name);
@@ -151,7 +154,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
     array.values = carrier.carry(column_values(table, name, "--value"));
     fields.arrays.push_back(std::move(array));
   }
-  drop_columns_of(fields, targets);
+  drop_own_columns(options, fields, targets);
   const WeightSide side = side_with_cells(job, options, targets, fields);
   job.time(Stage::write,
            [&] { write_fields(options.common.target(), fields, side, options.netcdf); });
@@ -190,7 +193,7 @@ void interpolate_fields(Job& job, const InterpolateOptions& options,
   out.axes = in.fields().axes;
   out.unlimited = in.fields().unlimited;
   tell(file.path, in.fields().remarks);
-  drop_columns_of(out, targets);
+  drop_own_columns(options, out, targets);
   const WeightSide side = side_with_cells(job, options, targets, out);
   FieldWriter writer(options.common.target(), out, side, options.netcdf, job.execution());
   tell(writer.remarks());

@@ -60,15 +60,22 @@ class Columns(ToolInFolder):
     def test_columns_give_way_to_fields(self):
         (self.folder / "taken.csv").write_text("lon,lat,oro,t\n10,20,7,8\n")
         fields = ["oro", "t_2000-01-01T00:00:00", "t_2000-01-01T06:00:00"]
-        for ending in ("csv", "nc"):
-            command = ("regrid", "in.nc", "taken.csv", "--method", "bilinear", "-o", f"out.{ending}")
-            self.assertEqual(self.run_tool(*command), [])
-        header, row = self.rows("out.csv")
-        # In a table the names of times are no other's, so that the column t stays.
-        self.assertEqual(sorted(header[4:]), sorted(fields))
-        self.assertEqual((header[:4], row[:4]), (["lon", "lat", "oro_", "t"], ["10", "20", "7", "8"]))
-        file = self.opened("out.nc")
-        self.assertEqual((file["oro_"][:].tolist(), file["t_"][:].tolist(), file["oro"][:].tolist()), ([7], [8], [1]))
+        for command in (("regrid", "in.nc", "taken.csv"), ("interpolate", "in.nc", "--to", "taken.csv")):
+            for ending in ("csv", "nc"):
+                self.assertEqual(self.run_tool(*command, "--method", "bilinear", "-o", f"out.{ending}"), [])
+            header, row = self.rows("out.csv")
+            # In a table the names of times are no other's, so that the column t stays.
+            self.assertEqual(sorted(header[4:]), sorted(fields))
+            self.assertEqual((header[:4], row[:4]), (["lon", "lat", "oro_", "t"], ["10", "20", "7", "8"]))
+            file = self.opened("out.nc")
+            self.assertEqual((file["oro_"][:].tolist(), file["t_"][:].tolist(), file["oro"][:].tolist()), ([7], [8], [1]))
+
+    def test_values_of_sites_at_themselves_stand_in_place_of_their_columns(self):
+        (self.folder / "sites.csv").write_text("lon,lat,oro,t\n10,20,7,8\n30,20,5,6\n")
+        (self.folder / "others.csv").write_text("lon,lat,oro\n10,20,1\n")
+        for target, expected in (("sites.csv", ["lon", "lat", "t", "oro"]), ("./sites.csv", ["lon", "lat", "t", "oro"]), ("others.csv", ["lon", "lat", "oro_", "oro"])):
+            self.run_tool("interpolate", "sites.csv", "--value", "oro", "--to", target, "--method", "nearest", "-o", "out.csv")
+            self.assertEqual(self.rows("out.csv")[0], expected)
 
     def test_numbers_of_sites_need_not_be_listed(self):
         with self.list_of("s.nc") as file:
