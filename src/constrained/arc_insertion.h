@@ -21,9 +21,11 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "constrained/ear_triangulation.h"
 #include "dynamic/link_triangulation.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
@@ -259,9 +261,10 @@ class ArcInsertion {
   Index add_face(Faces& faces, const Triple& corners);
   [[nodiscard]] bool is_almost_convex(const Faces& faces, const Polygon& polygon,
                                       const SubPolygon& part);
-  [[nodiscard]] bool triangulate_at_once(Faces& faces, const Polygon& polygon,
-                                         const SubPolygon& part);
-  Index take_triangulation(Faces& faces, const Polygon& polygon, const SubPolygon& part);
+  void take_ring(const Polygon& polygon, const SubPolygon& part);
+  [[nodiscard]] bool triangulate_at_once(Faces& faces);
+  Index take_triangulation(Faces& faces, std::span<const topology::Face> made,
+                           const Polygon& polygon, const SubPolygon& part);
 
   // All of this belongs to the arc that is inserted.
   std::vector<Index> cavity_;
@@ -270,7 +273,8 @@ class ArcInsertion {
   std::vector<SubPolygon> to_fill_;
   std::vector<DoubleEdge> double_edges_;
   dynamic::LinkTriangulation triangulation_;
-  std::vector<Index> ring_;   // the vertices of a convex part
+  EarTriangulation ears_;
+  std::vector<Index> ring_;   // the vertices of a part
   std::vector<Index> slots_;  // the faces that fill it
 };
 
@@ -360,21 +364,24 @@ bool ArcInsertion<Faces>::is_almost_convex(const Faces& faces, const Polygon& po
   return std::ranges::adjacent_find(ring_) == ring_.end();
 }
 
-// Triangulates a part in random order (Chew 1990), in expected linear time if it is convex. If it is
-// not, the result may be wrong: it is right if all faces are positive and all edges between them are
-// locally Delaunay, which is tested. Nothing but triangulation_ and ring_ changes.
+// Lists the vertices of a part. Edge 0 of the ring is the base; edge e is edge last - e of the polygon.
 template <class Faces>
-bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces, const Polygon& polygon,
-                                              const SubPolygon& part) {
+void ArcInsertion<Faces>::take_ring(const Polygon& polygon, const SubPolygon& part) {
+  ring_.assign(1, polygon.vertices[part.first]);
+  for (Index i = part.last; i > part.first; --i) ring_.push_back(polygon.vertices[i]);
+}
+
+// Triangulates the ring in random order (Chew 1990), in expected linear time if it is convex. If it is
+// not, the result may be wrong: it is right if all faces are positive and all edges between them are
+// locally Delaunay, which is tested. Nothing but triangulation_ changes.
+template <class Faces>
+bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces) {
   struct CircleTest {
     Faces& faces;
     [[nodiscard]] bool is_in_conflict(const Triple& face, Index v) const {
       return faces.is_in_circle(face[0], face[1], face[2], v);
     }
   };
-  // Edge 0 of the ring is the base; edge e is edge last - e of the polygon.
-  ring_.assign(1, polygon.vertices[part.first]);
-  for (Index i = part.last; i > part.first; --i) ring_.push_back(polygon.vertices[i]);
   CircleTest test{faces};
   triangulation_.run(test, ring_);
   const auto made = triangulation_.faces();
@@ -394,9 +401,8 @@ bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces, const Polygon& polyg
 // Takes the faces of a part that was triangulated at once, and returns the halfedge from its first
 // vertex to its last one.
 template <class Faces>
-Index ArcInsertion<Faces>::take_triangulation(Faces& faces, const Polygon& polygon,
-                                              const SubPolygon& part) {
-  const auto made = triangulation_.faces();
+Index ArcInsertion<Faces>::take_triangulation(Faces& faces, std::span<const topology::Face> made,
+                                              const Polygon& polygon, const SubPolygon& part) {
   slots_.clear();
   for (const topology::Face& face : made) {
     const auto& v = face.vertex;
@@ -459,12 +465,14 @@ Index ArcInsertion<Faces>::fill(Faces& faces, const Polygon& polygon) {
       close(faces, polygon.edges[first], beyond);
       continue;
     }
-    const bool is_tried =
-        part.size() >= many && part.size() <= limit && is_almost_convex(faces, polygon, part);
-    const bool is_done = is_tried && triangulate_at_once(faces, polygon, part);
+    const bool is_tried = part.size() >= many && part.size() <= limit;
+    const bool is_convex = is_tried && is_almost_convex(faces, polygon, part);
+    if (is_tried) take_ring(polygon, part);
     Index to_last = no_index;
-    if (is_done) {
-      to_last = take_triangulation(faces, polygon, part);
+    if (is_convex && triangulate_at_once(faces)) {
+      to_last = take_triangulation(faces, triangulation_.faces(), polygon, part);
+    } else if (is_tried && ears_.run(faces, ring_)) {
+      to_last = take_triangulation(faces, ears_.faces(), polygon, part);
     } else {
       const Index apex = apex_of(faces, polygon, first, last);
       const std::vector<Index>& chain = polygon.vertices;

@@ -358,6 +358,32 @@ TEST(constrained_laws, hold_between_curves_with_notches) {
   }
 }
 
+// A constraint between two rows of sites on parallels or on curves that bend towards it, where each face
+// has one of its ends; and rows with waves, which bend to and fro.
+TEST(constrained_laws, hold_between_rows_that_bend_inwards) {
+  Random random(15);
+  for (const double noise : {0.0, 1e-16, 1e-9, 1e-4, 0.05}) {
+    for (const int n : {17, 40, 300}) {
+      SCOPED_TRACE(std::to_string(noise) + " " + std::to_string(n));
+      SiteSet parallels;
+      parallels.sites = {{1, -0.6, 0}, {1, 0.6, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}};
+      SiteSet waves = parallels;
+      for (int i = 1; i < n; ++i) {
+        const double t = static_cast<double>(i) / n;
+        const double y = 1.1 * t - 0.55;
+        const double length = std::sqrt(1 + y * y);
+        for (const double side : {1.0, -1.0}) {
+          parallels.sites.push_back({1, y, side * (0.01 * length + noise * random.unit())});
+          const double wave = 0.02 * (1.2 + std::sin((20 + side) * y));
+          waves.sites.push_back({1, y + 1e-4 * side, side * (wave + noise * random.unit())});
+        }
+      }
+      expect_laws(parallels, {{0, 1}}, random);
+      expect_laws(waves, {{0, 1}}, random);
+    }
+  }
+}
+
 TEST(constrained_laws, hold_below_dimension_two) {
   const SiteSet ring = {{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-1, 1, 0}, {-1, 0, 0}, {2, 2, 0}}};
   const std::vector<Ends> constraints = {{0, 3}, {2, 5}, {4, 2}};
