@@ -34,8 +34,9 @@ class Gr3Reader {
     if (!lines_.next()) return;
     file_.has_boundary = true;
     read_boundaries(lines_.count(0, "number of open boundaries"), true);
-    if (!lines_.next()) return;
+    lines_.require("number of land boundaries", 0, 1);
     read_boundaries(lines_.count(0, "number of land boundaries"), false);
+    remark_on_rest();
     if (num_barriers_ > 0) {
       file_.remarks.push_back(std::to_string(num_barriers_) +
                               " boundaries with numbers at their nodes (weirs, pipes) are read as "
@@ -77,13 +78,37 @@ class Gr3Reader {
     }
   }
 
-  // Reads boundaries after the line with their number.
+  // Reads boundaries after the line with their number, and compares how many nodes they have with the
+  // total; of a barrier with two sides both may count, or one.
   void read_boundaries(std::uint64_t count, bool is_open) {
-    lines_.require("total number of boundary nodes", 0, 1);
-    static_cast<void>(lines_.count(0, "total number of boundary nodes"));
+    const char* const what = "total number of boundary nodes";
+    lines_.require(what, 0, 1);
+    const std::uint64_t total = lines_.count(0, what);
+    const std::uint64_t line = lines_.line();
+    std::uint64_t num_front = 0;
+    std::uint64_t num_back = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       lines_.require("boundary", i, count);
-      read_boundary(lines_.count(0, "number of nodes of a boundary"), is_open);
+      const std::size_t first = file_.mesh.boundary.size();
+      const std::uint64_t num_nodes = lines_.count(0, "number of nodes of a boundary");
+      read_boundary(num_nodes, is_open);
+      num_front += num_nodes;
+      if (file_.mesh.boundary.size() > first + 1) num_back += num_nodes;
+    }
+    if (total == num_front || total == num_front + num_back) return;
+    throw BadValue(std::string(what) + ' ' + std::to_string(total) + " where the boundaries have " +
+                       std::to_string(num_front + num_back),
+                   line);
+  }
+
+  // Adds a remark if a line with a number follows. Behind the end some programs have notes.
+  void remark_on_rest() {
+    while (lines_.next()) {
+      if (lines_.words()[0].find_first_not_of("0123456789") != std::string_view::npos) continue;
+      file_.remarks.push_back("line " + std::to_string(lines_.line()) +
+                              " and what follows it are not read: the number of land boundaries "
+                              "says that the last one ended before");
+      return;
     }
   }
 

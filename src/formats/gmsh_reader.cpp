@@ -9,6 +9,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 #include "exact/vector.h"
 #include "formats/ocean_lines.h"
@@ -32,6 +35,59 @@ struct GmshElement {
   std::int64_t group = 0;
   std::uint64_t line = 0;
 };
+
+// Lines that follow each other, by the indices of their nodes.
+struct GmshSegment {
+  BoundaryKind kind;
+  std::int64_t group;
+  std::int64_t curve;  // segments of different ones are not joined
+  std::vector<Index> nodes;
+  std::uint64_t line;
+
+  [[nodiscard]] bool is_closed() const { return nodes.front() == nodes.back(); }
+};
+
+// Appends one segment to the end of another one, turned if that is where they meet.
+void append(GmshSegment& segment, GmshSegment&& next) {
+  if (next.nodes.front() != segment.nodes.back()) std::ranges::reverse(next.nodes);
+  segment.nodes.insert(segment.nodes.end(), next.nodes.begin() + 1, next.nodes.end());
+}
+
+// Joins segments of one kind, group and curve where just two of them meet, and returns all in the order
+// of their first lines.
+std::vector<GmshSegment> joined(std::vector<GmshSegment> segments) {
+  using End = std::tuple<BoundaryKind, std::int64_t, std::int64_t, Index>;
+  std::map<End, std::vector<std::size_t>> at_end;
+  const auto end_of = [](const GmshSegment& segment, Index node) {
+    return End{segment.kind, segment.group, segment.curve, node};
+  };
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (segments[s].is_closed()) continue;
+    for (const Index node : {segments[s].nodes.front(), segments[s].nodes.back()}) {
+      at_end[end_of(segments[s], node)].push_back(s);
+    }
+  }
+  std::vector<GmshSegment> result;
+  std::vector<bool> is_taken(segments.size());
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (is_taken[s]) continue;
+    GmshSegment all = std::move(segments[s]);
+    is_taken[s] = true;
+    for (int direction = 0; direction < 2; ++direction) {
+      while (!all.is_closed()) {
+        const auto& meeting = at_end.at(end_of(all, all.nodes.back()));
+        if (meeting.size() != 2) break;
+        const std::size_t next = is_taken[meeting[0]] ? meeting[1] : meeting[0];
+        if (is_taken[next]) break;
+        is_taken[next] = true;
+        append(all, std::move(segments[next]));
+      }
+      std::ranges::reverse(all.nodes);
+    }
+    result.push_back(std::move(all));
+  }
+  return result;
+}
 
 class GmshReader {
  public:
@@ -260,15 +316,12 @@ class GmshReader {
                             (number == 1 ? "gets" : "get") + " the depth 0");
   }
 
-  // Joins lines that follow each other on a curve to segments.
+  // Joins lines to segments: those of an island on all of its curves, others on each curve. Lines of
+  // a curve may be in any order.
   void join_lines() {
     std::size_t num_others = 0;
     const GmshElement* last = nullptr;
-    mesh::BoundarySegment segment;
-    const auto end_segment = [&] {
-      if (last != nullptr) add_segment(file_, std::move(segment));
-      last = nullptr;
-    };
+    std::vector<GmshSegment> segments;
     for (const GmshElement& line : line_elements_) {
       const auto group = groups_.find(line.group);
       const std::optional<BoundaryKind> kind =
@@ -279,17 +332,19 @@ class GmshReader {
       }
       const bool is_next = last != nullptr && last->entity == line.entity &&
                            last->group == line.group && last->nodes[1] == line.nodes[0];
-      if (!is_next) end_segment();
       at_line(line.line, [&] {
         if (!is_next) {
-          segment = {*kind, {nodes_[line.nodes[0]]}};
-          file_.segment_lines.push_back(line.line);
+          const std::int64_t curve = *kind == BoundaryKind::island ? 0 : line.entity;
+          segments.push_back({*kind, line.group, curve, {nodes_[line.nodes[0]]}, line.line});
         }
-        segment.nodes.push_back(nodes_[line.nodes[1]]);
+        segments.back().nodes.push_back(nodes_[line.nodes[1]]);
       });
       last = &line;
     }
-    end_segment();
+    for (GmshSegment& segment : joined(std::move(segments))) {
+      file_.segment_lines.push_back(segment.line);
+      add_segment(file_, {segment.kind, std::move(segment.nodes)});
+    }
     file_.has_boundary = !file_.mesh.boundary.empty();
     if (num_others == 0) return;
     file_.remarks.push_back(std::to_string(num_others) +

@@ -39,13 +39,13 @@ decltype(auto) at_item(std::string_view item, std::uint64_t number, const Read& 
   }
 }
 
-// Returns read(). A BadValue gets the line that lines.line() returns when it is thrown.
+// Returns read(). A BadValue without a line gets the one that lines.line() returns when it is thrown.
 template <class Lines, class Read>
 decltype(auto) at_line_of(const Lines& lines, const Read& read) {
   try {
     return read();
   } catch (const BadValue& bad) {
-    throw BadValue(bad.what(), lines.line());
+    throw BadValue(bad.what(), bad.line() > 0 ? bad.line() : lines.line());
   }
 }
 

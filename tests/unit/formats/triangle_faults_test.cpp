@@ -75,6 +75,12 @@ TEST(triangle_faults, of_adcirc_have_a_line_and_a_value) {
   EXPECT_EQ(file.with("\n4 0\n", "\n4\n"), "f:16: the line ends before the type of a boundary");
   EXPECT_EQ(file.with("\n4 0\n", "\n4 1000\n"),
             "f:16: type of a boundary 1000 is not from 0 to 999");
+  EXPECT_EQ(file.until("1\n4\n4 0\n"),
+            "f:13: the file ends before number of land boundaries 1 of 1");
+  EXPECT_EQ(file.with("\n2\n2\n1\n2\n", "\n7\n2\n1\n2\n"),
+            "f:10: total number of boundary nodes 7 where the boundaries have 2");
+  EXPECT_EQ(file.with("\n4 0\n", "\n3 0\n"),
+            "f:15: total number of boundary nodes 4 where the boundaries have 3");
   EXPECT_EQ(file.with("\n4 0\n2\n3", "\n4 0\n3\n2"),
             "f:16: segment 2: nodes 2 and 4 are not joined by an edge of the border");
 }

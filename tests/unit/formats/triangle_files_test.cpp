@@ -16,7 +16,9 @@
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
+#include "inputs/random.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_size_files.h"
@@ -64,6 +66,34 @@ TriangleMesh held_by(const std::string& format, TriangleMesh mesh) {
   }
   if (format == "fesom") mesh.boundary = mesh::boundary_segments(mesh.points, mesh.triangles);
   return mesh;
+}
+
+// Returns a file of Gmsh 2.2 with groups of curves and more elements, each without its number.
+std::string with_lines(std::string text, const std::vector<std::string>& lines) {
+  const std::string begin = "$Elements\n";
+  const std::size_t at = text.find(begin) + begin.size();
+  std::size_t number = std::stoul(text.substr(at));
+  std::string elements;
+  for (const std::string& line : lines) elements += std::to_string(++number) + line;
+  text.insert(text.find("$EndElements"), elements);
+  text.replace(at, text.find('\n', at) - at, std::to_string(number));
+  const std::string names =
+      "$PhysicalNames\n3\n1 1 \"open\"\n1 2 \"land\"\n1 3 \"island\"\n$EndPhysicalNames\n";
+  return text.insert(text.find("$Nodes"), names);
+}
+
+// Returns the edges of the border with their kinds, the lower node first, sorted.
+std::vector<std::tuple<BoundaryKind, Index, Index>> edges_of(const TriangleMesh& mesh) {
+  std::vector<std::tuple<BoundaryKind, Index, Index>> edges;
+  for (const auto& [kind, nodes, type] : mesh.boundary) {
+    const bool is_island = kind == BoundaryKind::island;
+    for (std::size_t k = 0; k + (is_island ? 0 : 1) < nodes.size(); ++k) {
+      const auto [low, high] = std::minmax(nodes[k], nodes[(k + 1) % nodes.size()]);
+      edges.emplace_back(kind, low, high);
+    }
+  }
+  std::ranges::sort(edges);
+  return edges;
 }
 
 TriangleMesh typed_mesh() {
@@ -325,6 +355,49 @@ TEST(triangle_files, of_adcirc_are_read_as_adcirc_reads_them) {
   EXPECT_TRUE(ring.depths.empty());
   // A file of SCHISM that ends before the boundaries.
   EXPECT_EQ(mesh_in(island.substr(0, island.find("0\n0\n1\n4\n")), "gr3").boundary.size(), 3U);
+}
+
+TEST(triangle_files, of_adcirc_tell_what_is_behind_their_end) {
+  const std::string text = "t\n1 3\n1 0 0 5\n2 1 0 6\n3 1 1 7\n1 3 1 2 3\n0\n0\n1\n2\n2 0\n1\n2\n";
+  Remarks remarks;
+  EXPECT_EQ(mesh_in(text + "made by hand\n", "14", &remarks).boundary.size(), 1U);
+  EXPECT_EQ(remarks, Remarks{});
+  EXPECT_EQ(mesh_in(text + "notes\n2 0\n2\n3\n", "14", &remarks).boundary.size(), 1U);
+  EXPECT_EQ(remarks, Remarks{"line 15 and what follows it are not read: the number of land "
+                             "boundaries says that the last one ended before"});
+}
+
+// Gmsh has lines curve by curve; an island has several curves, of any direction, where it was drawn so.
+TEST(triangle_files, of_gmsh_join_the_curves_of_islands) {
+  const TriangleMesh mesh = arctic_mesh(6);
+  ASSERT_TRUE(std::ranges::count(mesh.boundary, BoundaryKind::island, &BoundarySegment::kind) > 0);
+  TriangleMesh without_boundary = held_by("gmsh2", mesh);
+  without_boundary.boundary.clear();
+  const std::string text = text_of(without_boundary, "gmsh2");
+  inputs::Random random(3);
+  for (int turn = 0; turn < 20; ++turn) {
+    std::vector<std::string> lines;
+    std::int64_t curve = 0;
+    for (const BoundarySegment& segment : mesh.boundary) {
+      const bool is_island = segment.kind == BoundaryKind::island;
+      ++curve;
+      for (std::size_t k = 0; k + (is_island ? 0 : 1) < segment.nodes.size(); ++k) {
+        if (is_island && random.next() % 3 == 0) ++curve;
+        std::array<Index, 2> ends = {segment.nodes[k],
+                                     segment.nodes[(k + 1) % segment.nodes.size()]};
+        if (random.next() % 3 == 0) std::swap(ends[0], ends[1]);
+        const int group = is_island ? 3 : (segment.kind == BoundaryKind::open ? 1 : 2);
+        lines.push_back(" 1 2 " + std::to_string(group) + ' ' + std::to_string(curve) + ' ' +
+                        std::to_string(ends[0] + 1) + ' ' + std::to_string(ends[1] + 1) + '\n');
+      }
+    }
+    for (std::size_t i = lines.size(); i > 1; --i) {
+      std::swap(lines[i - 1], lines[random.next() % i]);
+    }
+    const TriangleMesh read = mesh_in(with_lines(text, lines), "gmsh2");
+    EXPECT_EQ(edges_of(read), edges_of(mesh)) << turn;
+    EXPECT_EQ(read.boundary.size(), mesh.boundary.size());
+  }
 }
 
 // Nodestrings without kinds are open water; numbers have gaps; a triangle is clockwise.
