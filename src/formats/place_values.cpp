@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "arrangement/arc_contacts.h"
+#include "arrangement/box_tree.h"
 #include "map/arc.h"
 #include "map/ring_area.h"
 #include "rondel/constrained_interpolate.h"
@@ -87,6 +89,12 @@ class PlaceValues::InMesh {
       num_found += are_inside_[f] ? 1U : 0U;
     }
     if (num_found != triangles.size()) throw InvalidInput("triangles overlap");
+    border_boxes_.emplace(
+        border_.size(),
+        [&](std::size_t i) {
+          return arrangement::box_of(places_[border_[i][0]], places_[border_[i][1]]);
+        },
+        execution.threads);
     locator_.emplace(all);
     interpolator_.emplace(all);
     nearest_.emplace(delaunay);
@@ -106,7 +114,7 @@ class PlaceValues::InMesh {
       } else if (is_inside(locations[t])) {
         visit(t, linear[t], false);
       } else {
-        const std::optional<double> on_border = value_on_border(values, targets[t], node);
+        const std::optional<double> on_border = value_on_border(values, targets[t]);
         visit(t, on_border.value_or(values[node]), !on_border);
       }
     }
@@ -126,17 +134,13 @@ class PlaceValues::InMesh {
     return triangles_;
   }
 
-  // Lists the sides of one triangle only from both of their ends.
+  // Lists the sides of one triangle only.
   void list_border() {
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const bool is_single = (i == 0 || sides_[i - 1] != sides_[i]) &&
                              (i + 1 == sides_.size() || sides_[i + 1] != sides_[i]);
-      if (!is_single) continue;
-      const auto [a, b] = sides_[i];
-      border_.push_back({a, b});
-      border_.push_back({b, a});
+      if (is_single) border_.push_back(sides_[i]);
     }
-    std::ranges::sort(border_);
   }
 
   [[nodiscard]] bool is_inside(const Location& location) const {
@@ -146,29 +150,34 @@ class PlaceValues::InMesh {
            std::ranges::binary_search(sides_, NodePair{location.sites[0], location.sites[1]});
   }
 
-  // Returns the value of a target that is on a side of the border at a node up to rounding.
+  // Returns the value of a target that is on a side of the border up to rounding, of the nearest one
+  // of several.
   [[nodiscard]] std::optional<double> value_on_border(std::span<const double> values,
-                                                      const Point& target, Index node) const {
-    const auto begin = std::ranges::lower_bound(border_, NodePair{node, 0});
-    for (auto side = begin; side != border_.end() && (*side)[0] == node; ++side) {
-      const Point& a = places_[node];
-      const Point& b = places_[(*side)[1]];
-      const auto foot = map::foot_on_arc(target, a, b);
-      if (!foot || map::distance(target, *foot) > map::merge_distance) continue;
-      const double from_a = map::distance(target, a);
-      const double from_b = map::distance(target, b);
+                                                      const Point& target) const {
+    arrangement::SpaceBox around = arrangement::box_of(target, target);
+    around.widen(map::merge_distance);
+    std::optional<double> value;
+    double least = map::merge_distance;
+    border_boxes_->visit(around, [&](Index side) {
+      const auto& [a, b] = border_[side];
+      const auto foot = map::foot_on_arc(target, places_[a], places_[b]);
+      if (!foot || map::distance(target, *foot) > least) return;
+      least = map::distance(target, *foot);
+      const double from_a = map::distance(target, places_[a]);
+      const double from_b = map::distance(target, places_[b]);
       const double share = from_b / (from_a + from_b);
-      return share * values[node] + (1 - share) * values[(*side)[1]];
-    }
-    return std::nullopt;
+      value = share * values[a] + (1 - share) * values[b];
+    });
+    return value;
   }
 
   std::span<const Point> places_;
   std::vector<Index> representatives_;
   std::vector<Triple> triangles_;  // canonical, sorted
   std::vector<NodePair> sides_;    // the lower node first, sorted
-  std::vector<NodePair> border_;   // from each end to the other one, sorted
-  std::vector<bool> are_inside_;   // by face
+  std::vector<NodePair> border_;   // the sides of one triangle, sorted
+  std::optional<arrangement::BoxTree> border_boxes_;
+  std::vector<bool> are_inside_;  // by face
   std::optional<ConstrainedLocator> locator_;
   std::optional<ConstrainedInterpolator> interpolator_;
   std::optional<Locator> nearest_;

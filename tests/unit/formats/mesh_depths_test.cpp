@@ -130,6 +130,30 @@ TEST(mesh_depths, are_linear_in_each_triangle_and_on_the_border) {
   EXPECT_EQ(remarks, Remarks{});
 }
 
+// The node that is nearest to the middle of the long side is opposite of it.
+TEST(mesh_depths, are_linear_on_a_side_whose_ends_are_not_the_nearest_nodes) {
+  const TemporaryDirectory folder;
+  const std::vector<LonLat> positions = {{0, 0.3}, {10.1, 0.7}, {5, 1.3}};
+  const std::vector<Triple> triangles = {{0, 1, 2}};
+  const std::vector<double> values = {100, 300, 1000};
+  const TriangleMesh mesh =
+      mesh::triangle_mesh(unit_vectors(positions), positions, triangles, std::nullopt, values);
+  mesh::write_triangle_mesh(folder.file("a.14"), mesh);
+  std::vector<Point> places;
+  std::vector<double> expected;
+  for (int k = 1; k < 200; ++k) {
+    const Point p = place_between(mesh.points[0], mesh.points[1], k / 200.0);
+    const auto from = [&](const Point& q) { return std::hypot(p.x - q.x, p.y - q.y, p.z - q.z); };
+    const double share = from(mesh.points[0]) / (from(mesh.points[0]) + from(mesh.points[1]));
+    places.push_back(p);
+    expected.push_back(100 + 200 * share);
+  }
+  Remarks remarks;
+  const std::vector<double> depths = depths_at(folder.file("a.14"), places, &remarks);
+  for (std::size_t t = 0; t < places.size(); ++t) ASSERT_NEAR(depths[t], expected[t], 0.3) << t;
+  EXPECT_EQ(remarks, Remarks{});
+}
+
 TEST(mesh_depths, are_those_of_the_nearest_node_on_islands_and_beyond) {
   const TemporaryDirectory folder;
   const TriangleMesh mesh = mesh_with_island();
