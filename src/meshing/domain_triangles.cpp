@@ -17,6 +17,7 @@
 
 #include "exact/point_order.h"
 #include "exact/vector.h"
+#include "map/arc.h"
 #include "meshing/coarse_refine.h"
 #include "meshing/corner_meetings.h"
 #include "meshing/narrow_water.h"
@@ -345,7 +346,7 @@ class TrianglesOfDomain {
   }
 
   // Triangulates all features, and finds the faces of the mesh. Where corners of the features have
-  // no faces beyond their hull, but the mesh is there, it has the corners of an icosahedron, too.
+  // no faces beyond their hull, but the mesh is there, it has corners of an icosahedron, too.
   void triangulate() {
     const auto rounding = [](const Point&) { return meshing::rounding_of_places; };
     weld(rounding);
@@ -365,13 +366,37 @@ class TrianglesOfDomain {
       }
     }
     if (!is_found) {
-      for (const Point& point : icosahedron()) features_.sites.push_back(point);
+      add_far_corners();
       triangulate_sites(ConstraintCrossings::split);
       regions_ = find_regions();
     }
     if (std::ranges::count(regions_, no_index) == static_cast<std::ptrdiff_t>(regions_.size())) {
       refuse_land();
     }
+  }
+
+  // Adds the corners of an icosahedron that are far from all features. The others are not needed: its
+  // faces are 0.79 from the center, so that the center stays inside if corners move by 0.5, to places
+  // of features.
+  void add_far_corners() {
+    constexpr double far = 0.5;
+    std::vector<Point> corners;
+    for (const Point& corner : icosahedron()) {
+      const auto is_near = [&](const std::array<Index, 2>& side) {
+        const Point& a = features_.sites[side[0]];
+        const Point& b = features_.sites[side[1]];
+        const double distance = map::distance(corner, a);
+        if (distance > far + map::distance(a, b)) return false;
+        const auto foot = map::foot_on_arc(corner, a, b);
+        return distance <= far || (foot && map::distance(corner, *foot) <= far);
+      };
+      const auto is_site_near = [&](const Point& site) {
+        return map::distance(corner, site) <= far;
+      };
+      if (std::ranges::any_of(features_.sites, is_site_near)) continue;
+      if (std::ranges::none_of(features_.constraints, is_near)) corners.push_back(corner);
+    }
+    features_.sites.insert(features_.sites.end(), corners.begin(), corners.end());
   }
 
   // Returns false if arcs cross, unless they are split there, which takes longer.

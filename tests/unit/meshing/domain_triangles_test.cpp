@@ -93,6 +93,29 @@ TEST(domain_triangles, one_island_in_the_ocean) {
   EXPECT_EQ(made.mesh.report.num_too_small, 0U);
 }
 
+// Corners of an icosahedron fill what is beyond the hull of the features. One of them is where the
+// meridian of 36 degrees and the parallel of -26.57 meet, others are the poles.
+TEST(domain_triangles, one_island_beside_a_corner_of_an_icosahedron) {
+  for (const double apart : {0.0, 1e-14, 1e-12, 1e-6, 1e-3, 0.1}) {
+    for (const Ring& ring :
+         {box(36 + apart, -30, 46, -20), Ring{{0, 80}, {90, 80}, {180 - apart, 80}}}) {
+      SCOPED_TRACE(std::to_string(apart) + ' ' + std::to_string(ring[0].lat_deg));
+      const Geometries island = polygon({ring});
+      const DomainTriangles made = triangles({{island}, {}, {}}, spaced(9));
+      EXPECT_NEAR(area_of(made), whole_sphere - area_of(island), 1e-11);
+      double shortest = 4;
+      for (const auto& [a, b, c] : made.mesh.triangles) {
+        for (const auto& [p, q] : {std::array{a, b}, {b, c}, {c, a}}) {
+          const Point& from = made.mesh.nodes[p];
+          const Point& to = made.mesh.nodes[q];
+          shortest = std::min(shortest, std::hypot(to.x - from.x, to.y - from.y, to.z - from.z));
+        }
+      }
+      EXPECT_GT(shortest, 0.01);
+    }
+  }
+}
+
 TEST(domain_triangles, the_whole_sphere) {
   const DomainTriangles made = triangles({}, spaced(20));
   EXPECT_NEAR(area_of(made), whole_sphere, 1e-11);
