@@ -111,11 +111,11 @@ triangle_mesh(std::span<const Point> points, std::span<const LonLat> positions,
               std::span<const double> depths = {});
 
 /// Leaves out triangles on the border that have no area in the plane of longitude and latitude, where
-/// models compute, or are clockwise there: as three nodes of one meridian, which become slivers on the
-/// hull of a triangulation when their unit vectors are rounded, or of one parallel. A triangle is left
-/// out if its longest side in degrees is on the border and no constraint, repeatedly, so that those
-/// behind it are next; one with an inner longest side, a corner at a pole or a pole inside stays. Signs
-/// are exact by the numbers given, but where longitudes of a triangle are in different turns.
+/// models compute, are clockwise there, or are at most 1e-12 degrees high, which is what rounding does:
+/// as three nodes of one meridian, which become slivers on the hull of a triangulation when their unit
+/// vectors are rounded, or of one parallel. A triangle is left out if its longest side in degrees is on
+/// the border and no constraint, repeatedly, so that those behind it are next; one with an inner
+/// longest side, a corner at a pole or a pole inside stays.
 /// \param positions  the nodes in degrees, as a file will have them
 /// \param triangles  counterclockwise seen from outside; those that stay keep their order
 /// \param constraints  edges that stay, in either direction

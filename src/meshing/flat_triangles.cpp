@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,11 +28,28 @@ double turned_to(double lon_deg, double other_deg) {
   return turns == 0 ? lon_deg : lon_deg + 360 * turns;
 }
 
-// The corners in the plane, the first one's longitude as it is.
-std::array<LonLat, 3> in_plane(const LonLat& a, const LonLat& b, const LonLat& c) {
-  return {a, LonLat{turned_to(b.lon_deg, a.lon_deg), b.lat_deg},
-          LonLat{turned_to(c.lon_deg, a.lon_deg), c.lat_deg}};
+using PlaneCorners = std::array<LonLat, 3>;
+
+// Returns the corners in the plane, the first one's longitude as it is; nothing if the plane does not
+// show the triangle, which has a corner at a pole or a pole inside.
+std::optional<PlaneCorners> in_plane(const LonLat& a, const LonLat& b, const LonLat& c) {
+  const PlaneCorners corners = {a, LonLat{turned_to(b.lon_deg, a.lon_deg), b.lat_deg},
+                                LonLat{turned_to(c.lon_deg, a.lon_deg), c.lat_deg}};
+  const auto [west, east] = std::ranges::minmax(corners, {}, &LonLat::lon_deg);
+  const auto is_pole = [](const LonLat& p) { return std::abs(p.lat_deg) >= 90; };
+  if (std::ranges::any_of(corners, is_pole) || east.lon_deg - west.lon_deg >= 180) return {};
+  return corners;
 }
+
+Sign sign_of(const PlaneCorners& corners) {
+  const auto [p, q, r] = corners;
+  return orientation({p.lon_deg, p.lat_deg, 1}, {q.lon_deg, q.lat_deg, 1},
+                     {r.lon_deg, r.lat_deg, 1});
+}
+
+// Heights in degrees up to this may come from rounding: nodes along a parallel have latitudes that
+// differ by some 1e-14.
+constexpr double rounded_height_deg = 1e-12;
 
 // A side of a triangle, the lower node first. Sides are sorted, so that the two of an edge are next to
 // each other.
@@ -64,7 +82,8 @@ class FlatTriangles {
     while (!open.empty()) {
       const auto [nodes, t, opposite] = open.back();
       open.pop_back();
-      if (are_out_[t] || opposite != longest(t) || is_constraint(nodes) || has_area(t)) continue;
+      if (are_out_[t] || opposite != longest(t) || is_constraint(nodes) || !is_flat(t, opposite))
+        continue;
       are_out_[t] = true;
       for (unsigned i = 0; i < 3; ++i) {
         if (i == opposite) continue;
@@ -91,22 +110,29 @@ class FlatTriangles {
   [[nodiscard]] bool is_constraint(const std::array<Index, 2>& nodes) const {
     return std::ranges::binary_search(constraints_, nodes);
   }
-  [[nodiscard]] bool has_area(Index t) const {
+  // True if the triangle has no area in the plane, or is no higher above the side opposite to a corner
+  // than rounding makes it.
+  [[nodiscard]] bool is_flat(Index t, unsigned opposite) const {
     const auto& [a, b, c] = triangles_[t];
-    return sign_in_degrees(positions_[a], positions_[b], positions_[c]) == Sign::positive;
+    const auto corners = in_plane(positions_[a], positions_[b], positions_[c]);
+    if (!corners) return false;
+    if (sign_of(*corners) != Sign::positive) return true;
+    const auto& [p, q, r] = *corners;
+    const double area = (q.lon_deg - p.lon_deg) * (r.lat_deg - p.lat_deg) -
+                        (q.lat_deg - p.lat_deg) * (r.lon_deg - p.lon_deg);
+    return area <= rounded_height_deg * std::sqrt(squared_length(t, opposite));
+  }
+  // Returns the squared length in the plane of the side opposite to a corner.
+  [[nodiscard]] double squared_length(Index t, unsigned opposite) const {
+    const LonLat& p = positions_[triangles_[t][(opposite + 1) % 3]];
+    const LonLat& q = positions_[triangles_[t][(opposite + 2) % 3]];
+    const double east = turned_to(q.lon_deg, p.lon_deg) - p.lon_deg;
+    const double north = q.lat_deg - p.lat_deg;
+    return east * east + north * north;
   }
   // Returns the corner that is opposite to the longest side in the plane.
   [[nodiscard]] unsigned longest(Index t) const {
-    const auto& [a, b, c] = triangles_[t];
-    const auto corners = in_plane(positions_[a], positions_[b], positions_[c]);
-    std::array<double, 3> squares{};
-    for (unsigned i = 0; i < 3; ++i) {
-      const LonLat& p = corners[(i + 1) % 3];
-      const LonLat& q = corners[(i + 2) % 3];
-      const double east = q.lon_deg - p.lon_deg;
-      const double north = q.lat_deg - p.lat_deg;
-      squares[i] = east * east + north * north;
-    }
+    const std::array squares = {squared_length(t, 0), squared_length(t, 1), squared_length(t, 2)};
     return static_cast<unsigned>(std::ranges::max_element(squares) - squares.begin());
   }
 
@@ -121,14 +147,8 @@ class FlatTriangles {
 
 // The determinant of (longitude, latitude, 1) is twice the area.
 Sign sign_in_degrees(const LonLat& a, const LonLat& b, const LonLat& c) {
-  const auto is_pole = [](const LonLat& p) { return std::abs(p.lat_deg) >= 90; };
-  if (is_pole(a) || is_pole(b) || is_pole(c)) return Sign::positive;
-  const auto [p, q, r] = in_plane(a, b, c);
-  const double widest = std::max({std::abs(q.lon_deg - p.lon_deg), std::abs(r.lon_deg - p.lon_deg),
-                                  std::abs(r.lon_deg - q.lon_deg)});
-  if (widest >= 180) return Sign::positive;
-  return orientation({p.lon_deg, p.lat_deg, 1}, {q.lon_deg, q.lat_deg, 1},
-                     {r.lon_deg, r.lat_deg, 1});
+  const auto corners = in_plane(a, b, c);
+  return corners ? sign_of(*corners) : Sign::positive;
 }
 
 void require_area_in_degrees(std::span<const LonLat> positions, std::span<const Triple> triangles) {

@@ -293,7 +293,8 @@ def leave_out_flat(
 
     Models compute in this plane, where three nodes of one meridian, or of one parallel, have no
     area, whatever they have on the sphere; a triangulation of points has such slivers where its
-    border is straight. They are left out from the border inwards, by the exact sign of their area.
+    border is straight. They are left out from the border inwards, also those that are at most 1e-12
+    degrees high, which rounding makes of them.
 
     Parameters
     ----------

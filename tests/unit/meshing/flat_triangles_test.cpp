@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,6 +82,21 @@ TEST(flat_triangles, stay_where_their_long_side_is_a_constraint_or_inside) {
   inside.push_back({9, 0, 4});
   EXPECT_EQ(thrown_message<InvalidInput>([&] { mesh::leave_out_flat(positions, inside); }),
             "triangle 4 has a corner that is no node");
+}
+
+// One node of a parallel has the latitude beside the others'.
+TEST(flat_triangles, are_also_those_that_rounding_makes_a_little_higher) {
+  const double beside = std::nextafter(30.12, 90.0);
+  const std::vector<LonLat> positions = {{0, 30.12}, {4, 30.12}, {2, beside}, {1, 30.12},
+                                         {3, 30.12}, {2, 25},    {2, 40}};
+  const std::vector<Triple> slivers = {{1, 0, 3}, {1, 3, 2}, {1, 2, 4}};
+  std::vector<Triple> triangles = slivers;
+  const std::vector<Triple> others = {{0, 5, 3}, {3, 5, 2}, {2, 5, 4}, {4, 5, 1}};
+  triangles.insert(triangles.end(), others.begin(), others.end());
+  EXPECT_EQ(mesh::leave_out_flat(positions, triangles), 3U);
+  EXPECT_EQ(triangles, others);
+  triangles = {{0, 3, 6}, {3, 2, 6}, {0, 2, 3}};
+  EXPECT_EQ(mesh::leave_out_flat(positions, triangles), 1U);
 }
 
 TEST(flat_triangles, around_a_pole_and_across_the_turn_are_those_of_the_sphere) {
