@@ -124,12 +124,10 @@ void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf
 std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table) {
   std::vector<double> depths;
   std::vector<std::string> left_out;
-  const bool has_all = !table.columns.empty() &&
-                       table.columns.front().ends.size() == table.sites.size() &&
-                       mesh::can_write_triangle_mesh(common.target());
+  const bool is_for_model = mesh::can_write_triangle_mesh(common.target());
   for (const std::string& name : value_columns(table, common.read)) {
     const bool are_depths = name == "depth" || name == "Depth" || name == "DEPTH";
-    if (are_depths && has_all && depths.empty()) {
+    if (are_depths && is_for_model && depths.empty()) {
       depths = column_values(table, name, "--output");
     } else {
       left_out.push_back(name);

@@ -64,8 +64,8 @@ void write_triangles_of(const CommonOptions& common, const NetcdfOptions& netcdf
                         const mesh::TriangleMesh& mesh, const std::string& source, Job& job);
 
 /// Returns the depths of sites: the column `depth` (Depth, DEPTH) of their table, if files of the
-/// format of OUTPUT have depths, and the table has a row for each site. Names in a remark the
-/// columns that are left out, unless OUTPUT is indices of sites.
+/// format of OUTPUT have depths. Names in a remark the columns that are left out, unless OUTPUT is
+/// indices of sites.
 /// \throws FileError for a cell of that column that is no number
 std::vector<double> depths_of_sites(const CommonOptions& common, const SiteTable& table);
 

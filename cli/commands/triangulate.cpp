@@ -8,6 +8,7 @@
 //       that are added where constraints cross come after them
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -140,6 +141,34 @@ void require_input(const TriangulateOptions& options) {
   if (!options.constraints.empty()) require_edge_table(options.constraints);
 }
 
+// Gives sites at crossings depths between those of the ends of a constraint that they are on, of the
+// first one of several.
+void add_depths_of_crossings(const Plan& plan, const ConstrainedTriangulation& result,
+                             std::vector<double>& depths) {
+  const std::size_t num_given = depths.size();
+  if (num_given == 0) return;
+  const auto sites = result.triangulation.sites().points();
+  std::vector<Index> constraint_of(sites.size(), no_index);
+  for (std::size_t e = 0; e < result.edges.size(); ++e) {
+    for (const Index site : result.edges[e]) {
+      constraint_of[site] = std::min(constraint_of[site], result.sources[e].front());
+    }
+  }
+  const auto distance = [&](std::size_t p, std::size_t q) {
+    return std::hypot(sites[p].x - sites[q].x, sites[p].y - sites[q].y, sites[p].z - sites[q].z);
+  };
+  depths.resize(sites.size());
+  for (std::size_t s = num_given; s < sites.size(); ++s) {
+    if (constraint_of[s] == no_index) continue;
+    const auto& [a, b] = plan.edges.constraints[constraint_of[s]];
+    const double share = distance(s, a) / (distance(s, a) + distance(s, b));
+    depths[s] = (1 - share) * depths[a] + share * depths[b];
+  }
+  for (const Duplicate& d : result.triangulation.duplicates()) {
+    if (d.site >= num_given) depths[d.site] = depths[d.representative];
+  }
+}
+
 // Names the first site that has another depth than the site in its place that is the node.
 void tell_of_lost_depths(const SiteTable& table, std::span<const Duplicate> duplicates,
                          std::span<const double> depths) {
@@ -194,7 +223,8 @@ ExitStatus run_triangulate(TriangulateOptions options) {
     result = triangulated(options, plan, job.execution());
     if (options.is_inside) inside = faces_in_polygons(result, plan);
   });
-  const std::vector<double> depths = depths_of_sites(options.common, plan.table);
+  std::vector<double> depths = depths_of_sites(options.common, plan.table);
+  add_depths_of_crossings(plan, result, depths);
   const Triangulation& triangulation = result.triangulation;
   std::size_t num_for_model = 0;
   if (is_for_model(options.common)) {
@@ -287,9 +317,10 @@ Command add_triangulate_command(CLI::App& tool) {
       "sites that lie on it, and everything else is Delaunay as far as constraints let sites see\n"
       "each other. It is exact and unique. Sites are the points of features, their corners and\n"
       "those that straight lines in longitude and latitude need; each place is one site. A mesh\n"
-      "of ocean models has the depths of a column 'depth' beside the sites of --constraints, and\n"
-      "longitudes from -180 to 180 or in the turn of the input, as from 0 to 360. Triangles on\n"
-      "its border that have no area in degrees, as on a meridian, are left out.\n\n"
+      "of ocean models has the depths of a column 'depth' beside the sites of --constraints, at\n"
+      "crossings one between those of the ends of a constraint, and longitudes from -180 to 180\n"
+      "or in the turn of the input, as from 0 to 360. Triangles on its border that have no area\n"
+      "in degrees, as on a meridian, are left out.\n\n"
       "Examples:\n"
       "  rondel triangulate coast.geojson -o mesh.ply\n"
       "  rondel triangulate lakes.geojson --inside --split -o lakes.vtp\n"
