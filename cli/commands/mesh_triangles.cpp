@@ -165,7 +165,7 @@ void report_triangles(const MeshTrianglesOptions& options, const mesh::DomainTri
     summary += count(number, "triangle is", "triangles are") + " not as wanted " + why + '\n';
   };
   say(refined.num_near_small_angles, "near a small angle of coasts, borders or lines");
-  say(refined.num_too_small, "where doubles have no place between its corners");
+  say(refined.num_too_small, "where doubles have no place between corners");
   job.report(json.dump(2) + '\n',
              summary + "wrote " + options.common.output + " in " + text_of_seconds(seconds) + '\n');
 }

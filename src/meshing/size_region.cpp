@@ -178,7 +178,7 @@ bool SizeRegion::contains(const Point& place) const {
 
 SizeRaster SizeRaster::with_step(const SizeRegion& region, double step) {
   const system::ArithmeticScope arithmetic;
-  if (!(step > 0)) throw InvalidInput("a step of a raster is longer than 0");
+  if (!(step > 0)) throw InvalidInput("the spacing is so small that a step of its raster is 0");
   const std::array<double, 2> halves = halves_of(region);
   const double wanted = std::ceil(2 * std::max(halves[0], halves[1]) / step);
   const std::size_t most = most_steps_of(halves);
