@@ -201,6 +201,10 @@ class FieldDimensionFinder {
                                                            std::size_t columns) const;
   [[nodiscard]] NamedDirection direction_of(std::size_t dimension) const;
   [[nodiscard]] bool fits_line(const NamedDirection& direction, const PlacesAlong& line) const;
+  [[nodiscard]] std::string remark_on_order(const io::VariableInFile& variable, std::size_t rows,
+                                            std::size_t columns) const;
+  void orient_faces(const io::VariableInFile& variable, std::span<const std::size_t> places,
+                    FieldDimensions& layout) const;
   // Puts the dimensions of a grid into the order of the points where names or axes say it. False if
   // an axis of the file has other coordinates than the points.
   [[nodiscard]] bool orient(const io::VariableInFile& variable, FieldDimensions& layout);

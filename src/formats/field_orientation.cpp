@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -35,10 +36,10 @@ bool is_near_deg(double a, double b, CoordinateKind kind, double max_apart_deg) 
 }
 
 // True for names that models give to the dimensions of grids, whose columns follow each other eastward and
-// rows northward: ROMS (xi_rho), WRF (west_east), rotated poles (rlon).
+// rows northward: ROMS (xi_rho), WRF (west_east), rotated poles (rlon), cubed spheres (Xdim, grid_xt).
 bool is_name_of_rows_or_columns(std::string_view name, CoordinateKind kind) {
-  constexpr std::array<std::string_view, 4> columns = {"x", "nx", "xc", "rlon"};
-  constexpr std::array<std::string_view, 4> rows = {"y", "ny", "yc", "rlat"};
+  constexpr std::array<std::string_view, 6> columns = {"x", "nx", "xc", "rlon", "xdim", "grid_xt"};
+  constexpr std::array<std::string_view, 6> rows = {"y", "ny", "yc", "rlat", "ydim", "grid_yt"};
   const bool is_lon = kind == CoordinateKind::lon;
   const std::string lower = lower_case(name);
   return std::ranges::count(is_lon ? columns : rows, lower) > 0 ||
@@ -127,12 +128,53 @@ std::optional<CoordinateKind> FieldDimensionFinder::kind_of_rows(std::size_t row
   return std::nullopt;
 }
 
+// Says that nothing tells rows from columns.
+std::string FieldDimensionFinder::remark_on_order(const io::VariableInFile& variable,
+                                                  std::size_t rows, std::size_t columns) const {
+  const auto name_of = [&](std::size_t d) {
+    return io::in_quotes(file_.dimensions()[variable.dimensions[d]].name);
+  };
+  return "variable " + io::in_quotes(variable.name) + ": nothing says which of the dimensions " +
+         name_of(rows) + " and " + name_of(columns) +
+         " has the longitudes: they are taken in this order";
+}
+
+// Puts the dimensions of a grid of faces with as many rows as columns, as of a cubed sphere, in the
+// order of the grid: faces, rows, columns.
+void FieldDimensionFinder::orient_faces(const io::VariableInFile& variable,
+                                        std::span<const std::size_t> places,
+                                        FieldDimensions& layout) const {
+  std::array<std::size_t, 3> order{};  // of `places`
+  std::array<int, 3> counts{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto kind = direction_of(variable.dimensions[places[k]]).kind;
+    const std::size_t at = !kind ? 0 : (*kind == CoordinateKind::lat ? 1 : 2);
+    order.at(at) = places[k];
+    ++counts.at(at);
+  }
+  const auto length = [&](std::size_t d) { return variable.shape[d]; };
+  const bool is_named = counts == std::array{1, 1, 1} && length(order[0]) == length(places[0]);
+  if (!is_named) {
+    layout.remark = remark_on_order(variable, places[1], places[2]);
+    return;
+  }
+  layout.is_reversed = false;  // names say the order, whatever it is
+  auto next = order.begin();
+  for (std::size_t& d : layout.points) {
+    if (length(d) > 1) d = *next++;
+  }
+}
+
 bool FieldDimensionFinder::orient(const io::VariableInFile& variable, FieldDimensions& layout) {
   std::vector<std::size_t> places;
   for (const std::size_t d : layout.points) {
     if (variable.shape[d] > 1) places.push_back(d);
   }
-  // Only two dimensions that are longer than 1 can be taken in the wrong order.
+  if (places.size() == 3 && shape_.size() > 1 &&
+      variable.shape[places[1]] == variable.shape[places[2]]) {
+    orient_faces(variable, places, layout);
+  }
+  // Only two dimensions that are longer than 1 can be taken in the wrong order otherwise.
   if (places.size() != 2) return true;
   std::size_t rows = variable.shape[places[0]];
   std::size_t columns = variable.shape[places[1]];
@@ -157,11 +199,7 @@ bool FieldDimensionFinder::orient(const io::VariableInFile& variable, FieldDimen
     is_decided = true;
   }
   if (!is_decided) {
-    layout.remark =
-        "variable " + io::in_quotes(variable.name) + ": nothing says which of the dimensions " +
-        io::in_quotes(file_.dimensions()[variable.dimensions[places[0]]].name) + " and " +
-        io::in_quotes(file_.dimensions()[variable.dimensions[places[1]]].name) +
-        " has the longitudes: they are taken in this order";
+    layout.remark = remark_on_order(variable, places[0], places[1]);
   }
   // From here on rows, columns and both directions are in the order of the points.
   if (is_turned) {

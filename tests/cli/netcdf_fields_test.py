@@ -135,6 +135,32 @@ class Fields(unittest.TestCase):
         said = self.run_tool("apply", "w.nc", "plain.nc", "-o", "o.nc")
         self.assertIn('nothing says which of the dimensions "a" and "b" has the longitudes', said)
 
+    def test_faces_of_a_cubed_sphere_are_turned_by_names(self):
+        self.grid("in.nc", t=(np.random.default_rng(3).random((6, 6)), None))
+        self.run_tool("regrid", "in.nc", "C4", "-o", "cube.nc")
+        values = self.read("cube.nc", "t")
+        to_grid = ("regrid", "turned.nc", "grid:30", "--source", "C4", "-o", "out.nc")
+        self.run_tool("regrid", "cube.nc", "grid:30", "-o", "out.nc")
+        wanted = self.read("out.nc", "t")
+        for names in (("tile", "y", "x"), ("nf", "Ydim", "Xdim"), ("face", "lat", "lon")):
+            for order in ((0, 1, 2), (0, 2, 1), (1, 2, 0), (2, 1, 0)):
+                with self.subTest(names=names, order=order):
+                    data = self.new("turned.nc")
+                    turned = values.transpose(order)
+                    for k, length in zip(order, turned.shape):
+                        data.createDimension(names[k], length)
+                    add(data, "t", [names[k] for k in order], turned)
+                    data.close()
+                    said = self.run_tool(*to_grid, "--quiet")
+                    self.assertEqual(said, "")
+                    np.testing.assert_array_equal(self.read("out.nc", "t"), wanted)
+        data = self.new("turned.nc")
+        for name, length in (("a", 6), ("b", 4), ("c", 4)):
+            data.createDimension(name, length)
+        add(data, "t", ("a", "b", "c"), values)
+        data.close()
+        self.assertIn('nothing says which of the dimensions "b" and "c" has the longitudes', self.run_tool(*to_grid))
+
     def test_weights_without_lengths_take_names_and_places(self):
         lat = SQUARE_LAT[:5]
         values = np.random.default_rng(8).normal(size=(5, 6))
