@@ -99,11 +99,13 @@ void add_native_contours(nb::module_& module, const char* name) {
              nb::arg("levels").noconvert(), nb::arg("threads"));
 }
 
-Weights extrapolated_weights(const Weights& weights, const PairsIn& sources, const PairsIn& targets,
-                             const std::vector<std::uint64_t>& shape, const std::string& method,
-                             std::optional<double> max_distance_km, unsigned num_sources,
-                             unsigned exponent, unsigned levels, const IndicesIn& source_mask,
-                             const IndicesIn& target_mask, unsigned threads) {
+// Returns what extrapolates to targets of a grid of this shape. Throws ValueError for other methods.
+Extrapolator extrapolator_between(const PairsIn& sources, const PairsIn& targets,
+                                  const std::vector<std::uint64_t>& shape,
+                                  const std::string& method, std::optional<double> max_distance_km,
+                                  unsigned num_sources, unsigned exponent, unsigned levels,
+                                  const IndicesIn& source_mask, const IndicesIn& target_mask,
+                                  unsigned threads) {
   const std::optional<Extrapolation> known = extrapolation_named(method);
   if (!known) throw nb::value_error(("there is no extrapolation " + method).c_str());
   return watched_quietly(targets.shape(0), threads, [&](const Execution& execution) {
@@ -115,11 +117,20 @@ Weights extrapolated_weights(const Weights& weights, const PairsIn& sources, con
                                        .neighbors = num_sources,
                                        .exponent = exponent,
                                        .levels = levels};
-    Extrapolator extrapolator(known_unit_vectors(rows_of<LonLat>(sources)), std::move(points),
-                              std::move(neighbors), options, vector_of<std::int32_t>(source_mask),
-                              vector_of<std::int32_t>(target_mask));
-    return extrapolator.filled(weights, execution);
+    return Extrapolator(known_unit_vectors(rows_of<LonLat>(sources)), std::move(points),
+                        std::move(neighbors), options, vector_of<std::int32_t>(source_mask),
+                        vector_of<std::int32_t>(target_mask));
   });
+}
+
+// Returns the values of one field at the targets, those that are missing extrapolated.
+ArrayOut<double> filled_values(Extrapolator& extrapolator, const NumbersIn& source_values,
+                               const NumbersIn& target_values, unsigned threads) {
+  std::vector<double> filled = vector_of<double>(target_values);
+  watched_quietly(filled.size(), threads, [&](const Execution& execution) {
+    return extrapolator.fill(rows_of<double>(source_values), filled, execution);
+  });
+  return to_array<double>(std::move(filled));
 }
 
 ArrayOut<double> nodes_between_centers(const PairsIn& centers, std::size_t rows,
@@ -145,10 +156,21 @@ void add_native_weights(nb::module_& module) {
              nb::arg("places").noconvert(), nb::arg("targets").noconvert(), nb::arg("threads"));
   module.def("native_weights_between", &native_weights_between, nb::arg("cells"),
              nb::arg("targets").noconvert(), nb::arg("threads"));
-  module.def("extrapolated_weights", &extrapolated_weights, nb::arg("weights"),
-             nb::arg("sources").noconvert(), nb::arg("targets").noconvert(), nb::arg("shape"),
-             nb::arg("method"), nb::arg("max_distance_km").none(), nb::arg("num_sources"),
-             nb::arg("exponent"), nb::arg("levels"), nb::arg("source_mask").noconvert(),
+  nb::class_<Extrapolator>(module, "Extrapolator")
+      .def(
+          "filled",
+          [](Extrapolator& self, const Weights& weights, unsigned threads) {
+            return watched_quietly(weights.num_rows(), threads, [&](const Execution& execution) {
+              return self.filled(weights, execution);
+            });
+          },
+          nb::arg("weights"), nb::arg("threads"))
+      .def("filled_values", &filled_values, nb::arg("source_values").noconvert(),
+           nb::arg("target_values").noconvert(), nb::arg("threads"));
+  module.def("extrapolator", &extrapolator_between, nb::arg("sources").noconvert(),
+             nb::arg("targets").noconvert(), nb::arg("shape"), nb::arg("method"),
+             nb::arg("max_distance_km").none(), nb::arg("num_sources"), nb::arg("exponent"),
+             nb::arg("levels"), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("threads"));
   module.def("nodes_between", &nodes_between_centers, nb::arg("centers").noconvert(),
              nb::arg("rows"), nb::arg("columns"));

@@ -23,6 +23,7 @@ from ._coordinates import (
     with_places,
 )
 from ._errors import warn_caller
+from ._native import GapFiller
 from ._places import Places
 from ._sites import feature_type
 from ._types import IntArray
@@ -64,6 +65,7 @@ def carried(
     coincident: IntArray | None = None,
     over_cells: OverCells | None = None,
     describes: bool = False,
+    gaps: GapFiller | None = None,
 ) -> Any:
     """A Dataset or DataArray at other places; `unmapped` is the value of targets that no source
     contributes to, while those that need a missing value have NaN. `coincident` has pairs of
@@ -72,7 +74,8 @@ def carried(
     where `are_chosen` says that each target has the value of one source. Arrays of Dask stay lazy,
     in blocks of the targets as `output_chunks` says. `over_cells` says what becomes of sums over
     cells and what the result says of its cells. With `describes` it has what a list of targets
-    says of itself, such as names of stations.
+    says of itself, such as names of stations. `gaps` fills targets without values, but
+    of sums.
     """
     cells = OverCells(are_told=False) if over_cells is None else over_cells
     data = unpacked(data)
@@ -90,6 +93,7 @@ def carried(
             max_missing=max_missing,
             how="largest_share" if is_largest else "sum",
             coincident=coincident,
+            gaps=None if are_sums else gaps,
         )
         if not hasattr(values, "__dask_graph__"):
             found = apply(values, used)
@@ -100,7 +104,7 @@ def carried(
             len(source.dims),
             wanted.shape,
             wanted.dims,
-            output_chunks,
+            output_chunks if gaps is None else (-1,) * len(wanted.dims),
             apply,
             _kind(values),
         )
@@ -129,7 +133,7 @@ def carried(
                 "are_sums": are_sums,
             },
         )
-        are_flags = are_chosen or is_largest
+        are_flags = are_chosen or (is_largest and (gaps is None or gaps.is_nearest))
         found.attrs = {
             name: text
             for name, text in found.attrs.items()
@@ -279,6 +283,7 @@ def _applied_rows(
     marker: Any,
     unmapped: float,
     coincident: IntArray | None,
+    gaps: GapFiller | None,
     **rules: Any,
 ) -> Any:
     """The values at the targets of some rows, in one axis, of fields whose last axes, so many, are
@@ -296,6 +301,8 @@ def _applied_rows(
     found = weights.apply(flat, **rules)
     if not np.isnan(unmapped):
         found[..., np.diff(weights.indptr) == 0] = unmapped
+    if gaps is not None:
+        found = gaps.fill(flat, found)
     return found.astype(dtype, copy=False)
 
 

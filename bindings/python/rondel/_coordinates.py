@@ -335,6 +335,29 @@ def mappings(data: Any) -> list[Hashable]:
     return [name for name, item in known.items() if "grid_mapping_name" in item.attrs]
 
 
+def names_in_mesh(data: Any) -> tuple[Hashable, Hashable] | None:
+    """The longitudes and latitudes of the faces of the only UGRID mesh of a Dataset, or those of
+    its nodes or edges if all fields that say their location are there; None without such a mesh.
+    """
+    if not isinstance(data, xarray.Dataset):
+        return None
+    meshes = [
+        item.attrs
+        for item in data.variables.values()
+        if item.attrs.get("cf_role") == "mesh_topology"
+    ]
+    if len(meshes) != 1:
+        return None
+    told = {str(item.attrs.get("location")) for item in data.data_vars.values()}
+    kinds = told & {"node", "edge", "face"}
+    kind = kinds.pop() if len(kinds) == 1 else "face"
+    names = str(meshes[0].get(f"{kind}_coordinates", "")).split()
+    if len(names) != 2 or not all(name in data.variables for name in names):
+        return None
+    lon, lat = names
+    return (lat, lon) if data[lon].attrs.get("standard_name") == "latitude" else (lon, lat)
+
+
 def has_mesh(data: Any) -> bool:
     """Whether variables describe a mesh, as in files of UGRID, SCRIP, ESMF, MPAS, ICON, Exodus."""
     return bool(_core.has_mesh(_headers(data)))

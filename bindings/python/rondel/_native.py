@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from threading import Lock
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -27,9 +28,20 @@ def esmf_name(method: str) -> str:
 
 
 def limits_of_xesmf(
-    distance: float | None, exponent: float | None, sources: float | None, levels: float | None
+    method: str | None,
+    distance: float | None,
+    exponent: float | None = None,
+    sources: float | None = None,
+    levels: float | None = None,
 ) -> dict[str, Any]:
-    """The limits of a `Regridder`; None is the default, and a float may be a whole number."""
+    """The limits of a `Regridder` for a method of extrapolation; None is the default, and a float
+    may be a whole number.
+    """
+    if method not in (None, *EXTRAPOLATIONS):
+        raise ValueError(
+            f"extrap_method must be None, 'nearest_s2d', 'inverse_dist' or 'creep_fill', not "
+            f"{method!r}"
+        )
     made: dict[str, Any] = {"distance": None}
     if distance is not None:
         made["distance"] = as_number(distance, "extrap_distance")
@@ -45,6 +57,16 @@ def limits_of_xesmf(
         made[key] = as_count(number, name)  # type: ignore[arg-type]
         if not least <= made[key] <= most:
             raise ValueError(f"{name} must be from {least} to {most}, not {value}")
+    require_limits(
+        method,
+        "extrap_method",
+        {
+            "extrap_distance": ("", made["distance"], None),
+            "extrap_num_src_pnts": ("inverse_dist", made["sources"], 8),
+            "extrap_dist_exponent": ("inverse_dist", made["exponent"], 2),
+            "extrap_num_levels": ("creep_fill", made["levels"], 0),
+        },
+    )
     return made
 
 
@@ -268,33 +290,67 @@ def _as_cells(
     return nodes, offsets, corners, at
 
 
-def extrapolated(
-    weights: Weights,
-    sources: FloatArray,
-    targets: FloatArray,
-    shape: tuple[int, ...],
-    masks: tuple[BoolArray | None, BoolArray | None],
-    method: str,
-    options: dict[str, Any],
-    threads: int | None,
-) -> Weights:
-    """The weights with rows in place of the empty ones of targets that take part."""
-    kept = [
-        np.zeros(0, np.int32) if mask is None else mask.reshape(-1).astype(np.int32)
-        for mask in masks
-    ]
-    made = _core.extrapolated_weights(
-        weights._weights,
-        sources,
-        targets,
-        list(shape),
-        method,
-        options["distance"],
-        options["sources"],
-        options["exponent"],
-        options["levels"],
-        kept[0],
-        kept[1],
-        as_threads(threads),
-    )
-    return Weights._of(made)
+class GapFiller:
+    """Values of fields at the targets where they have none, by the gaps of each field."""
+
+    def __init__(
+        self,
+        sources: FloatArray,
+        targets: FloatArray,
+        shape: tuple[int, ...],
+        masks: tuple[BoolArray | None, BoolArray | None],
+        method: str,
+        options: dict[str, Any],
+        threads: int | None,
+    ) -> None:
+        kept = [
+            np.zeros(0, np.int32) if mask is None else mask.reshape(-1).astype(np.int32)
+            for mask in masks
+        ]
+        self._arguments = (
+            sources,
+            targets,
+            list(shape),
+            method,
+            options["distance"],
+            options["sources"],
+            options["exponent"],
+            options["levels"],
+            *kept,
+            as_threads(threads),
+        )
+        self.is_nearest = esmf_name(method) == "nearest_s2d"
+        self.__setstate__(self.__getstate__())
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_arguments": self._arguments, "is_nearest": self.is_nearest}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._threads = self._arguments[-1]
+        self._made: _core.Extrapolator | None = None
+        self._lock = Lock()  # the fields of several threads use the same memory one after the other
+
+    @property
+    def _extrapolator(self) -> _core.Extrapolator:
+        if self._made is None:
+            self._made = _core.extrapolator(*self._arguments)
+        return self._made
+
+    def filled(self, weights: Weights) -> Weights:
+        """The weights with rows in place of the empty ones of targets that take part."""
+        return Weights._of(self._extrapolator.filled(weights._weights, self._threads))
+
+    def fill(self, values: Any, found: Any) -> Any:
+        """The values at the targets, the last axis of `found`, of fields at the sources, the last
+        axis of `values`, whose leading axes are the same.
+        """
+        if not np.isnan(found).any():
+            return found
+        rows = np.ascontiguousarray(values.reshape(-1, values.shape[-1]), np.float64)
+        targets = np.ascontiguousarray(found.reshape(-1, found.shape[-1]), np.float64)
+        made = np.empty_like(targets)
+        with self._lock:
+            for row, target, out in zip(rows, targets, made, strict=True):
+                out[:] = self._extrapolator.filled_values(row, target, self._threads)
+        return made.reshape(found.shape).astype(found.dtype, copy=False)

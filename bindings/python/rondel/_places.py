@@ -26,6 +26,7 @@ from ._coordinates import (
     grid_of,
     has_mesh,
     lack_of_pixels,
+    names_in_mesh,
     pairs_of_values,
     with_dimensions,
 )
@@ -56,9 +57,19 @@ def _found(
     repeats: Repeats,
     arguments: tuple[str, str],
 ) -> Coordinates:
-    """The coordinates; errors advise the arguments that the caller has for their names."""
+    """The coordinates, of several in a mesh those of its faces or of all fields; errors advise the
+    arguments that the caller has for their names.
+    """
     try:
-        return Coordinates(data, lon, lat, repeats)
+        try:
+            return Coordinates(data, lon, lat, repeats)
+        except InvalidInput:
+            raise
+        except ValueError:
+            names = names_in_mesh(data) if lon is None and lat is None else None
+            if names is None:
+                raise
+            return Coordinates(data, *names, repeats)
     except InvalidInput:
         raise
     except ValueError as error:

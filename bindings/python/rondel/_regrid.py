@@ -105,9 +105,16 @@ def regrid(
     output_chunks : int, tuple, dict or str, optional
         The lengths of the blocks along the dimensions of the target, for arrays of Dask, as a
         `Regridder` takes them; by default 'auto'.
-    extrap_method, extrap_distance, corners : optional
-        As in `Regridder`: values for targets to which no source contributes, and corners of cells
-        where the coordinates have no bounds.
+    extrap_method : {None, 'nearest_s2d', 'inverse_dist', 'creep_fill'}, optional
+        The value of targets without one: none (default); that of the nearest source with a value;
+        the mean of the 8 nearest ones by the inverse square of the distance; or the mean of the
+        neighboring targets with values, level by level. 'nearest', 'idw' and 'creep' are the same.
+        As in `regrid_file`, each field is filled by its own gaps, but for sums over cells; arrays
+        of Dask have one block for all targets then.
+    extrap_distance : float, optional
+        How far sources may be from a target that is extrapolated, in kilometers; by default any.
+    corners : {'error', 'made'}, optional
+        As in `Regridder`: corners of cells where the coordinates have no bounds.
     limiter : {'none', 'slopes'}, optional
         What limits 'conservative_2nd', as in `Regridder`: with 'slopes' no value is beyond those of
         the sources around.
@@ -162,8 +169,6 @@ def regrid(
         lat=lat,
         lon_out=lon_out,
         lat_out=lat_out,
-        extrap_method=extrap_method,
-        extrap_distance=extrap_distance,
         corners=corners,
         limiter=limiter,
         max_uncovered=max_missing if is_of_cells or method == "largest_share" else 1.0,
@@ -171,6 +176,7 @@ def regrid(
         progress=progress,
     )
     regridder._keeps_sums = regridder._describes = True
+    regridder._fill_gaps(extrap_method, extrap_distance, threads)
     regridder._target = regridder._target.apart_from(data, regridder._source)
     return regridder(
         data,

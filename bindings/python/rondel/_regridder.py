@@ -17,14 +17,7 @@ from ._cell_set import CellSet
 from ._errors import warn_caller
 from ._geo import Path
 from ._geometries import Corners, Invalid, require_rules
-from ._native import (
-    EXTRAPOLATIONS,
-    Extrapolation,
-    esmf_name,
-    extrapolated,
-    limits_of_xesmf,
-    require_limits,
-)
+from ._native import Extrapolation, GapFiller, esmf_name, limits_of_xesmf
 from ._remap import CellOverlap, Remap, SlopeLimiter, remapped
 from ._repr import Described, count
 from ._reuse import reused, said_method
@@ -103,7 +96,7 @@ class Regridder(Described):
         The value of targets to which no source contributes: none (default); that of the nearest
         source that takes part; the mean of several by inverse distance; or the mean of the
         neighboring targets with weights, level by level. 'nearest', 'idw' and 'creep' are the same.
-        Weights know masks only: `regrid_file` extrapolates each field by its own missing values.
+        Weights know masks only: `regrid` and `regrid_file` fill each field by its own gaps.
     extrap_dist_exponent, extrap_num_src_pnts : int, optional
         With 'inverse_dist' the power of the distance (2), from 1 to 100, and the number of sources
         (8). As in xESMF, None is the default, and a whole number may be a float.
@@ -235,23 +228,12 @@ class Regridder(Described):
         require_rules(invalid=invalid)
         if corners not in ("error", "made"):
             raise ValueError(f"corners must be 'error' or 'made', not {corners!r}")
-        if extrap_method not in (None, *EXTRAPOLATIONS):
-            raise ValueError(
-                f"extrap_method must be None, 'nearest_s2d', 'inverse_dist' or 'creep_fill', not "
-                f"{extrap_method!r}"
-            )
         limits = limits_of_xesmf(
-            extrap_distance, extrap_dist_exponent, extrap_num_src_pnts, extrap_num_levels
-        )
-        require_limits(
             extrap_method,
-            "extrap_method",
-            {
-                "extrap_distance": ("", limits["distance"], None),
-                "extrap_num_src_pnts": ("inverse_dist", limits["sources"], 8),
-                "extrap_dist_exponent": ("inverse_dist", limits["exponent"], 2),
-                "extrap_num_levels": ("creep_fill", limits["levels"], 0),
-            },
+            extrap_distance,
+            extrap_dist_exponent,
+            extrap_num_src_pnts,
+            extrap_num_levels,
         )
         if not 0 <= max_uncovered <= 1:
             raise ValueError(f"max_uncovered must be from 0 to 1, not {max_uncovered}")
@@ -339,6 +321,20 @@ class Regridder(Described):
         # As xESMF, unless rondel.regrid says otherwise.
         self._keeps_sums = False
         self._describes = False
+        self._gaps: GapFiller | None = None
+
+    def _fill_gaps(
+        self, method: Extrapolation | None, distance: float | None, threads: int | None
+    ) -> None:
+        """Fills each field by its own gaps from now on, as files are."""
+        limits = limits_of_xesmf(method, distance)
+        if method is None:
+            return
+        source, target = self._source, self._target
+        places = source.pairs(), target.pairs()
+        masks = source.mask_with_places(), target.mask_with_places()
+        self._extrap_method = method
+        self._gaps = GapFiller(*places, target.shape, masks, method, limits, threads)
 
     @property
     def shape_in(self) -> tuple[int, ...]:
@@ -445,6 +441,7 @@ class Regridder(Described):
             "are_chosen": self._are_chosen(),
             "output_chunks": output_chunks,
             "coincident": self._coincident,
+            "gaps": self._gaps,
             "describes": self._describes,
             "over_cells": OverCells(
                 "mean" if self.method in _CONSERVATIVE else "",
@@ -681,7 +678,7 @@ def _filled(
     if method not in ("nearest", "nearest_s2d") or limits["distance"] is not None:
         places = source.pairs(), target.pairs()
         masks = source.mask_with_places(), target.mask_with_places()
-        return extrapolated(weights, *places, target.shape, masks, method, limits, threads)
+        return GapFiller(*places, target.shape, masks, method, limits, threads).filled(weights)
     is_kept = np.diff(weights.indptr) > 0
     mask = target.mask_with_places()
     if mask is not None:

@@ -196,3 +196,21 @@ def test_advice_for_a_target_names_its_arguments():
         rondel.Regridder(source, nowhere, "bilinear", lon_out="east", lat_out="height")
     with pytest.raises(ValueError, match=r"say lon=NAME and lat=NAME"):
         rondel.Regridder(nowhere, source, "bilinear")
+
+
+@pytest.mark.parametrize("method", ["nearest", "linear", "native", "conservative"])
+def test_values_are_at_the_faces_of_a_mesh_whose_nodes_have_places_too(method):
+    data = ugrid()
+    for name, item in (("longitude", "lon"), ("latitude", "lat")):
+        for kind in ("node", "face"):
+            data[f"{kind}_{item}"].attrs["standard_name"] = name
+    wanted = rondel.regrid(data, "grid:30", method, lon="face_lon", lat="face_lat").x
+    for found in (data, data.assign(depth=("node", POINTS[:, 0], {"location": "node"}))):
+        np.testing.assert_array_equal(rondel.regrid(found, "grid:30", method).x, wanted)
+
+
+def test_values_are_at_the_nodes_of_a_mesh_if_all_of_them_are():
+    data = ugrid().drop_vars("x")
+    data["depth"] = ("node", POINTS[:, 0], {"mesh": "mesh", "location": "node"})
+    wanted = rondel.regrid(data, "grid:30", "nearest", lon="node_lon", lat="node_lat").depth
+    np.testing.assert_array_equal(rondel.regrid(data, "grid:30", "nearest").depth, wanted)

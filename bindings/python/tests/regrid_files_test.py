@@ -504,6 +504,45 @@ def test_gaps_of_second_order_can_be_extrapolated(made):
     assert np.isnan(wanted.values[~is_covered]).all()
 
 
+@pytest.mark.parametrize(
+    "method", ["conservative", "conservative_2nd", "bilinear", "nearest", "largest_share"]
+)
+@pytest.mark.parametrize("extrapolation", ["nearest_s2d", "inverse_dist", "creep_fill"])
+def test_each_field_is_filled_by_its_own_gaps_in_memory_too(made, tmp_path, method, extrapolation):
+    _, data = made
+    fields = with_gaps(data.lon.values, data.lat.values)
+    for k, field in enumerate(fields):
+        field[4 + k : 9 + k, 5 : 20 - 3 * k] = np.nan
+    attrs = {"units": "m s-1"}
+    parts = {
+        "t": (("time", "lat", "lon"), fields),
+        "u": (("time", "lat", "lon"), fields[::-1], {"standard_name": "eastward_wind", **attrs}),
+        "v": (("time", "lat", "lon"), fields[::-1], {"standard_name": "northward_wind", **attrs}),
+        "kind": (("lat", "lon"), fields[0].round(), {"flag_values": [0.0], "flag_meanings": "a"}),
+    }
+    data = xarray.Dataset(parts, {name: data[name] for name in ("lat", "lon")})
+    data.to_netcdf(tmp_path / "in.nc")
+    vectors = [] if method == "largest_share" else [("u", "v")]
+    options = {"vectors": vectors, "max_missing": 0.3}
+    limit = {"extrapolate": extrapolation, "extrapolate_distance": 3000.0}
+    rondel.regrid_file(
+        tmp_path / "in.nc", "grid:15", tmp_path / "out.nc", method=method, **options, **limit
+    )
+    options |= {"extrap_method": extrapolation, "extrap_distance": 3000.0}
+    found = rondel.regrid(data, "grid:15", method, **options)
+    with xarray.open_dataset(tmp_path / "out.nc") as wanted:
+        for name, field in wanted.data_vars.items():
+            if name in parts:
+                np.testing.assert_array_equal(found[name], field)
+                assert found[name].attrs.get("flag_meanings") == field.attrs.get("flag_meanings")
+    gaps = rondel.regrid(data, "grid:15", method, vectors=vectors, max_missing=0.3)
+    assert np.isfinite(found.t).sum() > np.isfinite(gaps.t).sum()
+    pytest.importorskip("dask")
+    blocks = rondel.regrid(data.chunk({"time": 1}), "grid:15", method, output_chunks=5, **options)
+    assert not isinstance(blocks.t.data, np.ndarray)
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(blocks.t)), found.t)
+
+
 @pytest.mark.parametrize("parts", [2, 3])
 @pytest.mark.parametrize("shift", [0.0, 0.3, 7.7])
 def test_all_ways_decide_exact_shares_of_missing_values_equally(made, tmp_path, parts, shift):
