@@ -36,7 +36,7 @@ void add_extrapolate_options(CLI::App& parser, CommonOptions& common, Extrapolat
       parser
           .add_option("--extrapolate-exponent", options.limits.exponent,
                       "idw: the power of the distance (default 2)")
-          ->check([](const std::string& text) { return whole_error(text, 1, 16); })
+          ->check([](const std::string& text) { return whole_error(text, 1, 100); })
           ->type_name("N");
   const CLI::Option* const levels =
       parser

@@ -106,8 +106,8 @@ RONDEL_API CentersOutside centers_outside(const CellRings& cells, std::span<cons
 ///    corner may have the longitudes 0 and 2 pi. A corner that repeats the one before it is
 ///    dropped; cells with less than three corners have no ring. Clockwise rings are reversed.
 /// 3. If coordinates are along axes and have no bounds, cells end half way between them. The first
-///    and the last cell extend as far beyond their coordinate as before it, or to the pole if that
-///    is less than a cell away.
+///    and the last cell extend as far beyond their coordinate as before it, and on to the pole if
+///    that is less than a cell beyond.
 /// 4. A cell that the file masks has a mask of 0. So has a cell with a corner that is missing (NaN,
 ///    a fill value); it has no ring.
 ///    Centers of CF that are outside of their cells (centers_outside()) are an error if they are

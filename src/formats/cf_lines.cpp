@@ -165,7 +165,7 @@ void close_circle(std::vector<double>& lines, double first, double last) {
   }
 }
 
-// Moves the first and the last line to a pole that is less than a cell away.
+// Moves the first and the last line to a pole that is less than a cell beyond them.
 void end_at_poles(std::vector<double>& lines) {
   const auto to_pole = [](double line, double width) {
     return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;

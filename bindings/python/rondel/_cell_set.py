@@ -285,8 +285,8 @@ class CellSet(Described):
             Two or more longitudes in degrees, increasing or decreasing up to whole turns. If the
             last one is the first one again, each of them gets half of the cell.
         lat : array_like, shape (nlat,)
-            Degrees, increasing or decreasing. The first and the last cell end at a pole that is
-            less than a cell away.
+            Degrees, increasing or decreasing. The first and the last cell end half a step
+            beyond, or at a pole that is less than a cell beyond that.
         sides, threads
             As in `lonlat_grid`.
 
