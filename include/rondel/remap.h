@@ -117,6 +117,11 @@ RONDEL_API Remap remap(const CellSet& source, const CellSet& target,
 /// grid, the corners and the columns.
 RONDEL_API WeightSide weight_side(const CellSet& cells);
 
+/// Returns the areas of a side of a remapping as files of weights have them: that by definition, as the
+/// pixels of HEALPix have one, where it differs from the given area by rounding alone.
+/// \param areas  steradians, one for each cell
+RONDEL_API std::vector<double> told_areas(const CellSet& cells, std::vector<double> areas);
+
 /// Returns the content of the file that write_weights() writes. The pieces are dropped.
 RONDEL_API WeightFile weight_file(Remap remap);
 

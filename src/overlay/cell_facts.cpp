@@ -176,10 +176,6 @@ WeightSide weight_side(const CellSet& cells) {
   return side;
 }
 
-namespace {
-
-// Returns the areas of a side for a file: where those by definition are not these because of rounding alone,
-// they are told.
 std::vector<double> told_areas(const CellSet& cells, std::vector<double> areas) {
   constexpr double rounding = 1e-9;
   const std::vector<double>& defined = overlay::CellSetData::of(cells).defined_areas();
@@ -188,8 +184,6 @@ std::vector<double> told_areas(const CellSet& cells, std::vector<double> areas) 
   }
   return areas;
 }
-
-}  // namespace
 
 WeightFile weight_file(Remap remap) {
   WeightFile file;

@@ -207,6 +207,7 @@ void test_global_grid(std::string_view bytes) {
   }
   const Remap same = remap(cells, cells);
   require(weight_file(same).target.areas == same.target_areas, "a file has the areas");
+  require(told_areas(cells, same.target_areas) == same.target_areas, "areas stay as they are");
   test_comparison(cells, same, bytes);
   test_zones(same, bytes);
 }

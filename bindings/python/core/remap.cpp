@@ -113,6 +113,12 @@ void add_remap(nb::module_& module) {
              nb::arg("target_mask").noconvert(), nb::arg("overlap").none(), nb::arg("threads"),
              nb::arg("progress").none());
   module.def(
+      "told_areas",
+      [](const CellSet& cells, const NumbersIn& areas) {
+        return to_array<double>(told_areas(cells, vector_of<double>(areas)));
+      },
+      nb::arg("cells"), nb::arg("areas").noconvert());
+  module.def(
       "write_remap",
       [](const std::string& path, const std::string& format, Remap& remap) {
         unlocked([&] {

@@ -120,7 +120,7 @@ def remap_to_zarr(self: Any, path: Path, *, entries_per_chunk: int = _ENTRIES) -
     says: dict[str, Any] = {"map_method": "Conservative remapping", "normalization": self._norm}
     for letter, name, cells, areas, fractions in sides:
         arrays |= _arrays_of_places(letter, cells._degrees())
-        arrays[f"area_{letter}"] = _told_areas(cells, areas), {"units": "steradian"}
+        arrays[f"area_{letter}"] = _core.told_areas(cells._cells, areas), {"units": "steradian"}
         arrays[f"frac_{letter}"] = fractions, {"units": "1"}
         arrays[f"mask_{letter}"] = cells.mask.astype(np.int32), {"units": "1"}
         arrays[f"{name}_grid_dims"] = np.array(cells.shape[::-1], np.int32), {}
@@ -128,14 +128,6 @@ def remap_to_zarr(self: Any, path: Path, *, entries_per_chunk: int = _ENTRIES) -
         if _core.is_grid_name(grid):
             says[f"rondel_grid_{letter}"] = grid
     _write(path, self.weights, arrays, {**says, "order": self._order}, entries_per_chunk)
-
-
-def _told_areas(cells: Any, areas: FloatArray) -> FloatArray:
-    """The areas for a file: those of pixels by their definition, where only rounding differs."""
-    if "healpix:" not in cells._cells.facts.name:
-        return areas
-    defined = cells.areas
-    return np.where(np.abs(areas - defined) <= 1e-9 * defined, defined, areas)
 
 
 def _arrays_of_places(letter: str, places: FloatArray) -> dict[str, Any]:
