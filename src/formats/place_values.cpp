@@ -217,14 +217,36 @@ PlaceValues::PlaceValues(std::span<const Point> places, std::span<const double> 
 
 PlaceValues::~PlaceValues() = default;
 
-std::vector<double> PlaceValues::at(std::span<const Point> targets) const {
-  if (mesh_ == nullptr) {
-    return interpolator_->values(
-        values_, targets, {.method = Method::linear, .outside = Outside::nearest}, execution_);
+std::vector<double> PlaceValues::between_places(std::span<const Point> targets,
+                                                Outside outside) const {
+  return interpolator_->values(values_, targets, {.method = Method::linear, .outside = outside},
+                               execution_);
+}
+
+std::vector<double> PlaceValues::at(std::span<const Point> targets,
+                                    std::size_t* num_outside) const {
+  if (mesh_ == nullptr && num_outside == nullptr) return between_places(targets, Outside::nearest);
+  std::vector<double> result;
+  std::vector<std::size_t> outside;
+  if (mesh_ != nullptr) {
+    result.resize(targets.size());
+    mesh_->visit_values(values_, targets, execution_,
+                        [&](std::size_t t, double value, bool is_outside) {
+                          result[t] = value;
+                          if (is_outside) outside.push_back(t);
+                        });
+  } else {
+    result = between_places(targets, Outside::missing);
+    std::vector<Point> others;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      if (!std::isnan(result[t])) continue;
+      outside.push_back(t);
+      others.push_back(targets[t]);
+    }
+    const std::vector<double> values = between_places(others, Outside::nearest);
+    for (std::size_t k = 0; k < outside.size(); ++k) result[outside[k]] = values[k];
   }
-  std::vector<double> result(targets.size());
-  mesh_->visit_values(values_, targets, execution_,
-                      [&](std::size_t t, double value, bool /*is_outside*/) { result[t] = value; });
+  if (num_outside != nullptr) *num_outside = outside.size();
   return result;
 }
 
@@ -237,21 +259,6 @@ double PlaceValues::share_of_sphere() const {
       if (!delaunay_.is_ghost(f)) add(delaunay_.faces()[f]);
     }
   });
-}
-
-std::size_t PlaceValues::num_outside(std::span<const Point> targets) const {
-  std::size_t number = 0;
-  if (mesh_ != nullptr) {
-    mesh_->visit_values(values_, targets, execution_,
-                        [&](std::size_t /*t*/, double /*value*/, bool is_outside) {
-                          number += is_outside ? 1U : 0U;
-                        });
-    return number;
-  }
-  const std::vector<double> values = interpolator_->values(
-      values_, targets, {.method = Method::linear, .outside = Outside::missing}, execution_);
-  return static_cast<std::size_t>(
-      std::ranges::count_if(values, [](double value) { return std::isnan(value); }));
 }
 
 }  // namespace rondel::formats

@@ -34,14 +34,18 @@ class PlaceValues {
   PlaceValues(const PlaceValues&) = delete;
   PlaceValues& operator=(const PlaceValues&) = delete;
 
-  [[nodiscard]] std::vector<double> at(std::span<const Point> targets) const;
+  // Returns the values at targets. `num_outside`, unless null, gets the number of those that are in no
+  // triangle.
+  [[nodiscard]] std::vector<double> at(std::span<const Point> targets,
+                                       std::size_t* num_outside = nullptr) const;
   // Returns the share of the sphere that the triangles cover.
   [[nodiscard]] double share_of_sphere() const;
-  // Returns the number of targets that are in no triangle.
-  [[nodiscard]] std::size_t num_outside(std::span<const Point> targets) const;
 
  private:
   class InMesh;
+
+  [[nodiscard]] std::vector<double> between_places(std::span<const Point> targets,
+                                                   Outside outside) const;
 
   std::span<const Point> places_;
   std::span<const double> values_;

@@ -321,7 +321,10 @@ void remark_on_reach(const formats::PlaceValues& values, std::span<const Point> 
                      std::vector<std::string>* remarks) {
   if (remarks == nullptr) return;
   const double share = values.share_of_sphere();
-  if (share == 1 || (!corners.empty() && values.num_outside(corners) == 0)) return;
+  if (share == 1) return;
+  std::size_t num_outside = 0;
+  (void)values.at(corners, &num_outside);
+  if (!corners.empty() && num_outside == 0) return;
   std::array<char, 160> text{};
   std::snprintf(
       text.data(), text.size(),
@@ -471,8 +474,9 @@ std::vector<double> read_heights(const FileName& file, const std::string& name, 
   const double metres = 1000 * kilometers_of(file, heights.units, 1e-3, "heights");
   const formats::PlaceValues values(heights.places, heights.values, heights.triangles, execution,
                                     remarks);
-  std::vector<double> result = values.at(nodes);
-  if (const std::size_t n = remarks == nullptr ? 0 : values.num_outside(nodes); n > 0) {
+  std::size_t n = 0;
+  std::vector<double> result = values.at(nodes, remarks == nullptr ? nullptr : &n);
+  if (n > 0) {
     remarks->push_back(std::to_string(n) + " of " + std::to_string(nodes.size()) +
                        (n == 1 ? " nodes is" : " nodes are") +
                        " outside of the places with values: the value of the nearest place counts");
