@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -106,18 +105,10 @@ class Extrapolator::Impl {
     if (options_.method == Extrapolation::creep) {
       for (const std::vector<Index>& level : levels_.filled()) {
         for (const Index target : level) {
-          double sum = 0;
-          double low = std::numeric_limits<double>::infinity();
-          double high = -low;
-          std::size_t number = 0;
-          levels_.for_each_giver(neighbors_, target, [&](Index giver) {
-            sum += target_values[giver];
-            low = std::min(low, target_values[giver]);
-            high = std::max(high, target_values[giver]);
-            ++number;
+          target_values[target] = interpolation::mean_of([&](const auto& visit) {
+            levels_.for_each_giver(neighbors_, target,
+                                   [&](Index giver) { visit(target_values[giver]); });
           });
-          // Rounding does not take the mean of some values beyond them.
-          target_values[target] = std::clamp(sum / static_cast<double>(number), low, high);
           ++count;
         }
       }

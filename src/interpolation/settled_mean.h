@@ -78,6 +78,30 @@ class MeanBounds {
   bool has_negative_ = false;
 };
 
+// Returns the mean of the values that a function visits, which is never beyond the smallest or the largest
+// of them.
+template <class VisitValues>
+double mean_of(const VisitValues& visit_values) {
+  std::size_t number = 0;
+  double sum = 0;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  visit_values([&](double value) {
+    ++number;
+    sum += value;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  });
+  const auto count = static_cast<double>(number);
+  if (std::isnan(sum) || low > high) return sum / count;
+  if (!std::isinf(sum)) return std::clamp(sum / count, low, high);
+  // Parts of the largest numbers have a sum, or one that rounding alone makes too large.
+  const double largest = std::max(std::abs(low), std::abs(high));
+  double mean = 0;
+  visit_values([&](double value) { mean += value / count; });
+  return std::clamp(mean, -largest, largest);
+}
+
 // Returns what a sum is as a mean over the entries that a function visits.
 template <class VisitEntries>
 double settled_mean(double sum, const VisitEntries& visit_entries) {

@@ -9,14 +9,12 @@
 // index fields; vertices by spatial rank; sites
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "interpolation/prepared_triangulation.h"
+#include "interpolation/settled_mean.h"
 #include "rondel/interpolate.h"
 #include "system/large_arrays.h"
 
@@ -33,25 +31,9 @@ std::vector<SharedSites> shared_places(const PreparedTriangulation& prepared);
 // Returns the mean of the numbers value(i) of some sites, which is never beyond the smallest or the largest of them.
 template <class Value>
 double mean_of(std::span<const Index> sites, const Value& value) {
-  const auto count = static_cast<double>(sites.size());
-  double sum = 0;
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  for (const Index i : sites) {
-    sum += value(i);
-    low = std::min(low, value(i));
-    high = std::max(high, value(i));
-  }
-  if (std::isnan(sum) || low > high) return sum / count;
-  if (!std::isinf(sum)) return std::clamp(sum / count, low, high);
-  // Parts of the largest numbers have a sum, or one that rounding alone makes too large.
-  double mean = 0;
-  double largest = 0;
-  for (const Index i : sites) {
-    mean += value(i) / count;
-    largest = std::max(largest, std::abs(value(i)));
-  }
-  return std::clamp(mean, -largest, largest);
+  return mean_of([&](const auto& visit) {
+    for (const Index i : sites) visit(value(i));
+  });
 }
 
 // Says where values are stored: that of field f at site i is data[starts[f] + i * step].
