@@ -41,15 +41,12 @@ SecondOrderRemap::SecondOrderRemap(Remap remap, std::vector<std::int32_t> covere
     throw InvalidInput("the remapping is not of order 2");
   }
   if (covered_.empty()) covered_.assign(remap_.target_areas.size(), 1);
-  if (limiter_ != RemapLimiter::slopes) {
-    remap_.weights = with_rows(remap_.weights, covered_);
-    return;
-  }
   if (covered_.size() != remap_.target_areas.size()) {
     throw InvalidInput("there are " + std::to_string(covered_.size()) + " numbers for " +
                        std::to_string(remap_.target_areas.size()) + " targets");
   }
-  remap_.weights = {};
+  remap_.weights =
+      limiter_ == RemapLimiter::slopes ? Weights{} : with_rows(remap_.weights, covered_);
 }
 
 // Returns for each target whether it is covered, and enough of what covers it has values, by area: weights
