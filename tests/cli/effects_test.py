@@ -3,14 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """An option that would change nothing is a usage error; where it changes something, it is taken."""
 
-import pathlib
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+from tool_in_folder import ToolInFolder
 
 ON_NETCDF = "has no effect on netCDF"
 NOT_RANDOM = "on sites that are not random"
@@ -129,11 +125,9 @@ FILES = {
 }
 
 
-class Effects(unittest.TestCase):
+class Effects(ToolInFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         for name, text in FILES.items():
             (self.folder / name).write_text(text)
         for words in (
@@ -141,18 +135,13 @@ class Effects(unittest.TestCase):
             "generate uniform -n 6 -o points.npy",
             "interpolate sites.csv --to grid:90 --weights weights.nc",
         ):
-            done = self.run_tool(*words.split())
+            done = self.tool(*words.split())
             self.assertEqual(done.returncode, 0, done.stderr)
         self.names = {path.name for path in self.folder.iterdir()}
 
-    def run_tool(self, *arguments):
-        return subprocess.run(
-            [TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False
-        )
-
     def test_without_effect_is_a_usage_error(self):
         for words, option, reason in WITHOUT_EFFECT:
-            done = self.run_tool(*words.split())
+            done = self.tool(*words.split())
             self.assertEqual((done.returncode, done.stdout), (2, ""), (words, done.stderr))
             reason = reason if "effect" in reason else f"has no effect {reason}"
             self.assertTrue(
@@ -162,18 +151,18 @@ class Effects(unittest.TestCase):
 
     def test_with_effect_is_taken(self):
         for words in WITH_EFFECT:
-            done = self.run_tool(*words.split())
+            done = self.tool(*words.split())
             if "plot" in words and "not a command" in done.stderr:
                 continue  # it was built without plots
             self.assertEqual(done.returncode, 0, (words, done.stderr))
 
     def test_names_of_columns_change_nothing_of_netcdf_which_is_told(self):
-        done = self.run_tool("nearest", "mesh.nc", "angles.csv", "--lon", "east", "--lat", "north")
+        done = self.tool("nearest", "mesh.nc", "angles.csv", "--lon", "east", "--lat", "north")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("mesh.nc: names of columns are for tables; mesh.nc:NAME", done.stderr)
 
     def test_a_seed_is_refused_where_it_changes_nothing(self):
-        text = self.run_tool("generate", "--help").stdout
+        text = self.tool("generate", "--help").stdout
         kinds = re.findall(
             r"^  ([a-z][\w-]+) ", text[text.index("Kinds:") : text.index("Examples:")], re.M
         )
@@ -182,9 +171,9 @@ class Effects(unittest.TestCase):
         num_fixed = 0
         for kind in kinds:
             size = ["--angle", "30"] if kind == "poisson" else ["-n", str(numbers.get(kind, 50))]
-            first = self.run_tool("generate", kind, *size, "-o", "-")
+            first = self.tool("generate", kind, *size, "-o", "-")
             self.assertEqual(first.returncode, 0, first.stderr)
-            second = self.run_tool("generate", kind, *size, "--seed", "2", "-o", "-")
+            second = self.tool("generate", kind, *size, "--seed", "2", "-o", "-")
             if second.returncode == 0:
                 self.assertNotEqual(first.stdout, second.stdout, kind)
             else:

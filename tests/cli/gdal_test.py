@@ -14,9 +14,7 @@ import os
 import pathlib
 import shutil
 import sqlite3
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if any(importlib.util.find_spec(name) is None for name in ("pyogrio", "geopandas")):
@@ -25,8 +23,8 @@ import geopandas
 import numpy as np
 import pyogrio
 import shapely
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 DATA = pathlib.Path(__file__).resolve().parents[2] / "data"
 WHEEL = pathlib.Path(pyogrio.__file__).parent
 LIBRARIES = sorted(WHEEL.parent.glob("pyogrio.libs/libgdal*"))
@@ -35,20 +33,14 @@ if not LIBRARIES:
 ENVIRONMENT = {**os.environ, "RONDEL_GDAL": str(LIBRARIES[0])}
 
 
-class Folder(unittest.TestCase):
-    """Has a folder in which the tool runs."""
-
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class Folder(ToolInFolder):
+    environment = ENVIRONMENT
 
     def run_tool(self, *arguments):
-        return subprocess.run([TOOL, *arguments, "--quiet"], cwd=self.folder, env=ENVIRONMENT,
-                              text=True, capture_output=True, check=False)
+        return self.tool(*arguments, "--quiet")
 
-    def voronoi(self, *arguments):
-        return self.run_tool("voronoi", *arguments)
+    def voronoi(self, *arguments, **options):
+        return self.tool("voronoi", *arguments, "--quiet", **options)
 
 
 class FilesOfGdal(Folder):
@@ -211,9 +203,8 @@ class SitesOfGdal(Folder):
                 self.assertEqual(found[site]["geometry"], feature["geometry"], (name, site))
         self.cells("s.fgb")
         with open(self.folder / "s.fgb", "rb") as file:
-            done = subprocess.run([TOOL, "voronoi", "-", "--input-format", "fgb", "-o", "c.geojson", "--quiet"], cwd=self.folder,
-                                  env=ENVIRONMENT, stdin=file, capture_output=True, check=False)
-        self.assertEqual((done.returncode, done.stderr), (0, b""))
+            done = self.voronoi("-", "--input-format", "fgb", "-o", "c.geojson", stdin=file)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual((self.folder / "c.geojson").read_bytes(), (self.folder / "cells.geojson").read_bytes())
 
     def test_info_says_what_gdal_says_of_a_damaged_file(self):
@@ -239,8 +230,7 @@ class SitesOfGdal(Folder):
     def test_multipoints_and_features_without_a_place(self):
         geometry = [shapely.MultiPoint([(0, 0), (90, 0), (0, 90)]), None, shapely.Point(), shapely.Point(-120, -40)]
         geopandas.GeoDataFrame({"k": [1, 2, 3, 4]}, geometry=geometry, crs="EPSG:4326").to_file(self.folder / "m.gpkg")
-        done = subprocess.run([TOOL, "voronoi", "m.gpkg", "-o", "cells.geojson", "--json"], cwd=self.folder, env=ENVIRONMENT,
-                              text=True, capture_output=True, check=True)
+        done = self.finished("voronoi", "m.gpkg", "-o", "cells.geojson", "--json")
         report = json.loads(done.stdout)
         self.assertEqual((report["sites"], report["unlocated"]), (4, 2))
         features = json.loads((self.folder / "cells.geojson").read_text())["features"]
@@ -374,8 +364,7 @@ class FeaturesOfGdal(Folder):
         for ending in self.ENDINGS:
             done = self.run_tool("regrid", "t.nc", f"f.{ending}", "--method", "nearest", "-o", "o.csv")
             self.assertIn(f"f.{ending}: it has polygons, which are no places", done.stderr)
-            info = subprocess.run([TOOL, "info", f"f.{ending}"], cwd=self.folder, env=ENVIRONMENT, text=True,
-                                  capture_output=True, check=True)
+            info = self.finished("info", f"f.{ending}")
             self.assertIn("regrid and remap as a target", info.stdout)
         self.write([shapely.Point(0, 0), shapely.Point(90, 0), shapely.Point(0, 90), shapely.Point(180, -45)], k=[1, 2, 3, 4])
         for ending in self.ENDINGS:
@@ -417,8 +406,7 @@ class FeaturesOfGdal(Folder):
     def test_are_known_to_info(self):
         self.write([shapely.box(0, 0, 9, 9), shapely.LineString([(0, 0), (1, 1)])], k=[1, 2], endings=("gpkg",))
         for name in ("f.gpkg", "f.geojson"):
-            done = subprocess.run([TOOL, "info", name, "--json"], cwd=self.folder, env=ENVIRONMENT, text=True,
-                                  capture_output=True, check=True)
+            done = self.finished("info", name, "--json")
             report = json.loads(done.stdout)
             self.assertEqual((report["features"], report["polygons"], report["lines"]), (2, 1, 1), report)
 

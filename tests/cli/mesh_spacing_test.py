@@ -9,17 +9,14 @@ Without NumPy ctest says "Skipped".
 import importlib.util
 import json
 import math
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("numpy") is None:
     sys.exit(77)
 import numpy as np
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 RADIUS_KM = 6371.229
 
 
@@ -40,19 +37,13 @@ def island(lon, lat, radius_deg, corners=60):
             for t in turns]
 
 
-class Meshes(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Meshes(ToolInFolder):
     def write(self, name, geometry, coordinates):
         (self.folder / name).write_text(json.dumps({"type": geometry, "coordinates": coordinates}))
 
     def mesh(self, *options):
         """The nodes as unit vectors, the edges and what the tool says on standard error."""
-        done = subprocess.run([TOOL, "mesh", "triangles", *options, "-o", "mesh.14", "--quiet"],
-                              cwd=self.folder, text=True, capture_output=True, check=False)
+        done = self.tool("mesh", "triangles", *options, "-o", "mesh.14", "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
         lines = (self.folder / "mesh.14").read_text().splitlines()
         triangles, nodes = (int(word) for word in lines[1].split())

@@ -13,17 +13,15 @@ import itertools
 import os
 import pathlib
 import random
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 SITE = pathlib.Path(netCDF4.__file__).parent.parent
 LIBRARIES = sorted(SITE.glob("net[cC][dD][fF]4.libs/libnetcdf-*"))
 if not LIBRARIES:
@@ -46,21 +44,9 @@ def add_grid(data, num_times=12):
     data.createDimension("time", num_times)
 
 
-class Chunks(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Chunks(ToolInFolder):
     def run_tool(self, *arguments, environment=ENVIRONMENTS[0]):
-        return subprocess.run(
-            [TOOL, *arguments, "--quiet"],
-            cwd=self.folder,
-            env=environment,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        return self.tool(*arguments, "--quiet", env=environment)
 
     def carried(self, name, *options, environment=ENVIRONMENTS[0]):
         """The fields of a file on its own grid, by its nearest places: each value where it was."""
@@ -298,9 +284,7 @@ class Chunks(unittest.TestCase):
             ("interpolate", "pipe.nc", "--value", "v", "--to", "grid:30", "-o", "out.nc"),
             ("info", "pipe.nc"),
         ):
-            done = subprocess.run(
-                [TOOL, *command], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
-            )
+            done = self.tool(*command, timeout=60)
             self.assertEqual(
                 (done.returncode, done.stderr),
                 (1, "rondel: pipe.nc: a pipe, and this file is read more than once; copy it to a file first\n"),

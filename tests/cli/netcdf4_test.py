@@ -18,7 +18,6 @@ import resource
 import shutil
 import subprocess
 import sys
-import tempfile
 import unittest
 
 if any(importlib.util.find_spec(name) is None for name in ("netCDF4", "xarray")):
@@ -26,8 +25,8 @@ if any(importlib.util.find_spec(name) is None for name in ("netCDF4", "xarray"))
 import netCDF4
 import numpy as np
 import xarray
+from tool_in_folder import TOOL, ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 LIBRARIES = sorted(
     pathlib.Path(netCDF4.__file__).parent.parent.glob("net[cC][dD][fF]4.libs/libnetcdf-*")
 )
@@ -49,21 +48,12 @@ def add_grid(data, num_lon=12, num_lat=6):
         axis[:] = start + step * (np.arange(count) + 0.5)
 
 
-class Netcdf4(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+class Netcdf4(ToolInFolder):
+    environment = ENVIRONMENT
 
     def run_tool(self, *arguments, status=0, environment=None, stdin=None):
-        done = subprocess.run(
-            [TOOL, *arguments],
-            cwd=self.folder,
-            env={**ENVIRONMENT, **(environment or {})},
-            stdin=stdin,
-            capture_output=True,
-            check=False,
-        )
+        environment = {**ENVIRONMENT, **(environment or {})}
+        done = self.tool(*arguments, text=False, env=environment, stdin=stdin)
         self.assertEqual(done.returncode, status, done.stderr.decode())
         return done.stderr.decode()
 
@@ -385,13 +375,7 @@ class Netcdf4(unittest.TestCase):
             cases.append(bytes(changed))
         for case in cases:
             (self.folder / "bad.nc").write_bytes(case)
-            done = subprocess.run(
-                [TOOL, "remap", "bad.nc", "grid:60", "-o", "w.nc", "--quiet"],
-                cwd=self.folder,
-                env=ENVIRONMENT,
-                capture_output=True,
-                check=False,
-            )
+            done = self.tool("remap", "bad.nc", "grid:60", "-o", "w.nc", "--quiet", text=False)
             self.assertIn(done.returncode, (0, 1))
             if done.returncode == 1:
                 lines = done.stderr.decode().splitlines()
@@ -467,21 +451,14 @@ class Netcdf4(unittest.TestCase):
         before = sorted(path.name for path in self.folder.iterdir())
         for environment, command in itertools.product(libraries, commands):
             option = () if command[-1] == "--weights" else ("-o",)
-            run = [TOOL, *command, *option, "full.nc4", "--quiet"]
+            words = (*command, *option, "full.nc4", "--quiet")
             for limit in (1 << 12, 1 << 28):
 
                 def limited(limit=limit):
                     resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
 
-                done = subprocess.run(
-                    run,
-                    cwd=self.folder,
-                    env=environment,
-                    preexec_fn=limited,
-                    capture_output=True,
-                    check=False,
-                )
-                said = done.stderr.decode()
+                done = self.tool(*words, env=environment, preexec_fn=limited)
+                said = done.stderr
                 if limit == 1 << 28:
                     self.assertEqual(done.returncode, 0, said)
                     (self.folder / "full.nc4").unlink()

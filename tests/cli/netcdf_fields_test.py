@@ -9,18 +9,15 @@ Without netCDF4-python ctest says "Skipped".
 import importlib.util
 import itertools
 import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 SQUARE_LON, SQUARE_LAT = np.arange(0.0, 360, 60), np.linspace(75.0, -75, 6)
 EAST, NORTH = {"units": "degrees_east"}, {"units": "degrees_north"}
 
@@ -34,24 +31,11 @@ def add(data, name, dimensions, values, fill=None, **attributes):
     return variable
 
 
-class Fields(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Fields(ToolInFolder):
     def new(self, name, kind="NETCDF4"):
         data = netCDF4.Dataset(self.folder / name, "w", format=kind)
         self.addCleanup(lambda: data.isopen() and data.close())
         return data
-
-    def run_tool(self, *arguments, status=0):
-        """What the tool says."""
-        done = subprocess.run(
-            [TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
 
     def read(self, name, variable):
         with netCDF4.Dataset(self.folder / name) as data:
@@ -72,18 +56,18 @@ class Fields(unittest.TestCase):
 
     def square_weights(self):
         self.grid("square.nc", v=(np.zeros((6, 6)), None))
-        self.run_tool("interpolate", "square.nc", "--to", "grid:60", "--weights", "w.nc")
+        self.said("interpolate", "square.nc", "--to", "grid:60", "--weights", "w.nc")
 
     def test_fill_that_is_a_value_marks_nothing(self):
         self.square_weights()
         rain, heat = np.zeros((6, 6)), np.full((6, 6), 5.0)
         rain[0], rain[2, 3], heat[4, 1] = 7, -1, -1
         self.grid("in.nc", rain=(rain, -1.0), heat=(heat, -1.0))
-        self.run_tool("apply", "w.nc", "in.nc", "-o", "nan.nc")
+        self.said("apply", "w.nc", "in.nc", "-o", "nan.nc")
         missing = {name: np.isnan(self.read("nan.nc", name)) for name in ("rain", "heat")}
         number = sum(int(gaps.sum()) for gaps in missing.values())
         self.assertGreater(number, 0)
-        said = self.run_tool("apply", "w.nc", "in.nc", "--fill", "0", "-o", "zero.nc")
+        said = self.said("apply", "w.nc", "in.nc", "--fill", "0", "-o", "zero.nc")
         self.assertIn("zero.nc: values that are not missing are the number of --fill, too", said)
         self.assertIn(f"{number} values missing", said)
         for name, gaps in missing.items():
@@ -92,7 +76,7 @@ class Fields(unittest.TestCase):
                 self.assertFalse(np.ma.getmaskarray(out[name][:]).any())
             right = np.where(gaps, 0, self.read("nan.nc", name))
             np.testing.assert_array_equal(self.read("zero.nc", name), right)
-        said = self.run_tool("apply", "w.nc", "in.nc", "--fill", "-7", "-o", "seven.nc")
+        said = self.said("apply", "w.nc", "in.nc", "--fill", "-7", "-o", "seven.nc")
         self.assertNotIn("--fill", said)
         with netCDF4.Dataset(self.folder / "seven.nc") as out:
             np.testing.assert_array_equal(np.ma.getmaskarray(out["rain"][:]), missing["rain"])
@@ -101,7 +85,7 @@ class Fields(unittest.TestCase):
         self.square_weights()
         values = np.random.default_rng(7).normal(size=(6, 6))
         self.grid("right.nc", t=(values, None))
-        self.run_tool("apply", "w.nc", "right.nc", "-o", "right_out.nc")
+        self.said("apply", "w.nc", "right.nc", "-o", "right_out.nc")
         right = self.read("right_out.nc", "t")
         for names, axes, turned in itertools.product(
             (("lat", "lon"), ("latitude", "Longitude"), ("y", "x"), ("j", "i"), ("ny", "nx"), ("rlat", "rlon"), ("eta_rho", "xi_rho"),
@@ -121,7 +105,7 @@ class Fields(unittest.TestCase):
                     add(data, "x_axis", (names[1],), SQUARE_LON - 360, **EAST)
                 add(data, "t", names[::-1] if turned else names, values.T if turned else values)
                 data.close()
-                said = self.run_tool("apply", "w.nc", "one.nc", "-o", "one_out.nc")
+                said = self.said("apply", "w.nc", "one.nc", "-o", "one_out.nc")
                 self.assertNotIn("nothing says", said)
                 np.testing.assert_array_equal(self.read("one_out.nc", "t"), right)
 
@@ -132,7 +116,7 @@ class Fields(unittest.TestCase):
         data.createDimension("b", 6)
         add(data, "t", ("a", "b"), np.ones((6, 6)))
         data.close()
-        said = self.run_tool("apply", "w.nc", "plain.nc", "-o", "o.nc")
+        said = self.said("apply", "w.nc", "plain.nc", "-o", "o.nc")
         self.assertIn('nothing says which of the dimensions "a" and "b" has the longitudes', said)
 
     def test_faces_of_a_cubed_sphere_are_turned_by_names(self):
@@ -166,10 +150,10 @@ class Fields(unittest.TestCase):
         values = np.random.default_rng(8).normal(size=(5, 6))
         self.grid("right.nc", SQUARE_LON, lat, t=(values, None))
         for weights in ("w.npz", "w.nc"):
-            self.run_tool("interpolate", "right.nc", "--to", "grid:60", "--weights", weights)
+            self.said("interpolate", "right.nc", "--to", "grid:60", "--weights", weights)
         with netCDF4.Dataset(self.folder / "w.nc", "a") as data:
             data.renameVariable("src_grid_dims", "unknown")
-        self.run_tool("apply", "w.nc", "right.nc", "-o", "right_out.csv")
+        self.said("apply", "w.nc", "right.nc", "-o", "right_out.csv")
         right = self.table("right_out.csv")["t"]
         for names, turned in itertools.product((("lat", "lon"), ("a", "b")), (False, True)):
             data = self.new("bare.nc")
@@ -179,7 +163,7 @@ class Fields(unittest.TestCase):
             data.close()
             for weights in ("w.npz", "w.nc"):
                 with self.subTest(names=names, turned=turned, weights=weights):
-                    said = self.run_tool("apply", weights, "bare.nc", "-o", "o.npy")
+                    said = self.said("apply", weights, "bare.nc", "-o", "o.npy")
                     is_unknown = weights == "w.npz" and names == ("a", "b")
                     self.assertEqual("nothing says" in said, is_unknown)
                     if not is_unknown:
@@ -188,7 +172,7 @@ class Fields(unittest.TestCase):
     def test_one_axis_with_other_numbers_is_refused(self):
         self.square_weights()
         self.grid("oblong.nc", SQUARE_LON, SQUARE_LAT[:5], v=(np.zeros((5, 6)), None))
-        self.run_tool("interpolate", "oblong.nc", "--to", "grid:60", "--weights", "w5.nc")
+        self.said("interpolate", "oblong.nc", "--to", "grid:60", "--weights", "w5.nc")
         for weights, lat in (("w.nc", SQUARE_LAT), ("w5.nc", SQUARE_LAT[:5])):
             data = self.new("turned.nc")
             data.createDimension("lat", len(lat))
@@ -196,7 +180,7 @@ class Fields(unittest.TestCase):
             add(data, "lat", ("lat",), lat[::-1], **NORTH)
             add(data, "t", ("lat", "lon"), np.ones((len(lat), 6)))
             data.close()
-            said = self.run_tool("apply", weights, "turned.nc:t", "-o", "n.nc", status=1)
+            said = self.said("apply", weights, "turned.nc:t", "-o", "n.nc", status=1)
             self.assertIn('has "lat", which is not the axis of the places that are wanted', said)
 
     def test_names_in_groups(self):
@@ -217,24 +201,24 @@ class Fields(unittest.TestCase):
         add(observed, "same", ("y", "x"), lon)
         add(geo, "same", ("y", "x"), lon)
         data.close()
-        said = self.run_tool("remap", "groups.nc4:geo/lon", "grid:10", "-o", "w.nc")
+        said = self.said("remap", "groups.nc4:geo/lon", "grid:10", "-o", "w.nc")
         self.assertIn("20 cells to 648 cells", said)
         self.assertNotIn("there is no variable", said)
         # The nearest site of each target is known.
         (self.folder / "to.csv").write_text("lon,lat\n10,-20\n23,13\n40.5,20.5\n")
         for name in ("obs/bt", "/obs/bt", "bt", "obs/bu", "/obs/bu", "bu"):
-            self.run_tool(
+            self.said(
                 *("interpolate", f"groups.nc4:{name}", "--to", "to.csv", "--method", "nearest"),
                 *("-o", "o.csv"),
             )
             column = self.table("o.csv")["obs_" + name[-2:]]
             np.testing.assert_array_equal(column, [13, 23, 43] if "bt" in name else [10, 20, 40])
-        said = self.run_tool(
+        said = self.said(
             "interpolate", "groups.nc4:same", "--to", "to.csv", "-o", "n.csv", status=1
         )
         self.assertIn('several groups have a variable "same": "geo/same", "obs/same"', said)
-        self.run_tool("interpolate", "groups.nc4:bu", "--to", "grid:30", "--weights", "wg.nc")
-        said = self.run_tool("apply", "wg.nc", "groups.nc4", "-o", "o.nc")
+        self.said("interpolate", "groups.nc4:bu", "--to", "grid:30", "--weights", "wg.nc")
+        said = self.said("apply", "wg.nc", "groups.nc4", "-o", "o.nc")
         with netCDF4.Dataset(self.folder / "o.nc") as out:
             self.assertNotIn("geo_sides_lon_c", out.variables)
             self.assertIn("obs_bu", out.variables)
@@ -243,7 +227,7 @@ class Fields(unittest.TestCase):
         points = np.random.default_rng(3).normal(size=(60, 3))
         np.savetxt(self.folder / "s.xyz", points)
         for form, file in (("ugrid", "u.nc"), ("mpas", "m.nc")):
-            self.run_tool("mesh", "convert", "s.xyz", "-o", file, "--format", form)
+            self.said("mesh", "convert", "s.xyz", "-o", file, "--format", form)
         places = {}
         with netCDF4.Dataset(self.folder / "u.nc", "a") as data:
             for kind in ("node", "edge", "face"):
@@ -264,28 +248,28 @@ class Fields(unittest.TestCase):
                 lon, lat = places[kind + suffix]
                 lines = [f"{x!r},{y!r}" for x, y in zip(lon.tolist(), lat.tolist(), strict=True)]
                 (self.folder / "at.csv").write_text("\n".join(["lon,lat", *lines]) + "\n")
-                self.run_tool(
+                self.said(
                     *("interpolate", f"{file}:at_{kind}", "--to", "at.csv", "--method", "nearest"),
                     *("-o", "o.csv"),
                 )
                 found = self.table("o.csv")["at_" + kind]
                 np.testing.assert_array_equal(found, np.arange(len(lon)))
-        said = self.run_tool("remap", "u.nc:at_node", "grid:30", "-o", "n.nc", status=1)
+        said = self.said("remap", "u.nc:at_node", "grid:30", "-o", "n.nc", status=1)
         self.assertIn('variable "at_node" is at the nodes of mesh "mesh", which are no cells', said)
-        self.run_tool("remap", "m.nc:at_edge", "grid:30", "-o", "n.nc", status=1)
-        self.run_tool("remap", "u.nc:at_face", "grid:30", "-o", "w.nc")
-        said = self.run_tool("mesh", "convert", "m.nc", "-o", "again.nc")
+        self.said("remap", "m.nc:at_edge", "grid:30", "-o", "n.nc", status=1)
+        self.said("remap", "u.nc:at_face", "grid:30", "-o", "w.nc")
+        said = self.said("mesh", "convert", "m.nc", "-o", "again.nc")
         self.assertIn("m.nc: left out, as they are no part of the mesh: at_node, at_edge", said)
         for form in ("mpas", "ugrid", "scrip", "esmf"):
-            self.run_tool("mesh", "convert", "s.xyz", "-o", "plain.nc", "--format", form)
-            said = self.run_tool("mesh", "convert", "plain.nc", "-o", "again.nc")
+            self.said("mesh", "convert", "s.xyz", "-o", "plain.nc", "--format", form)
+            said = self.said("mesh", "convert", "plain.nc", "-o", "again.nc")
             self.assertNotIn("left out", said)
 
     def test_fields_at_nodes_alone_are_carried_and_told(self):
         np.savetxt(self.folder / "s.xyz", np.random.default_rng(3).normal(size=(60, 3)))
         (self.folder / "to.csv").write_text("lon,lat\n10,20\n-70,5\n")
         for form in ("ugrid", "scrip"):
-            self.run_tool("mesh", "convert", "s.xyz", "-o", form + ".nc", "--format", form)
+            self.said("mesh", "convert", "s.xyz", "-o", form + ".nc", "--format", form)
         with netCDF4.Dataset(self.folder / "ugrid.nc", "a") as data:
             count = len(data.dimensions["n_node"])
             for name in ("a", "b"):
@@ -293,33 +277,33 @@ class Fields(unittest.TestCase):
                 add(data, name, ("n_node",), values, location="node", mesh="mesh")
         for method in ("sibson", "native"):
             to = ("--to", "to.csv", "--method", method, "-o")
-            said = self.run_tool("interpolate", "ugrid.nc", *to, "all.csv")
+            said = self.said("interpolate", "ugrid.nc", *to, "all.csv")
             self.assertIn("no field is at the 60 centers of cells; sites are the "
                           f"{count} places of a", said)
-            self.run_tool(
+            self.said(
                 "interpolate", "ugrid.nc", "--value", "a", "--value", "b", *to, "named.csv"
             )
             for name in ("a", "b"):
                 found = self.table("all.csv")[name]
                 np.testing.assert_array_equal(found, self.table("named.csv")[name])
-        said = self.run_tool("info", "ugrid.nc")
+        said = self.said("info", "ugrid.nc")
         self.assertIn(f"at {count} other places, such as nodes:\nfields: a, b\n", said)
         self.assertIn("and with --value a: interpolate, contours", said)
-        facts = json.loads(self.run_tool("info", "ugrid.nc", "--json"))
+        facts = json.loads(self.said("info", "ugrid.nc", "--json"))
         self.assertEqual(facts["elsewhere"]["places"], count)
         self.assertEqual([each["name"] for each in facts["elsewhere"]["fields"]], ["a", "b"])
-        self.assertNotIn("other places", self.run_tool("info", "scrip.nc"))
+        self.assertNotIn("other places", self.said("info", "scrip.nc"))
 
     def test_two_places_of_one_cell_are_refused(self):
         np.savetxt(self.folder / "s.xyz", np.random.default_rng(4).normal(size=(40, 3)))
         for kind, value in (("Cell", 0.3), ("Vertex", 0.1), ("Edge", -0.2)):
-            self.run_tool("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
+            self.said("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
             with netCDF4.Dataset(self.folder / "m.nc", "a") as data:
                 data["lat" + kind][5] = value
-            said = self.run_tool("mesh", "quality", "m.nc", status=1)
+            said = self.said("mesh", "quality", "m.nc", status=1)
             self.assertIn(f'm.nc: value 5 of "lon{kind}" and "lat{kind}", ', said)
             self.assertIn(f'is another place than that of "x{kind}"', said)
-        self.run_tool("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
+        self.said("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
         with netCDF4.Dataset(self.folder / "m.nc", "a") as data:
             data["latCell"].units = "degrees"
         for command in (
@@ -327,11 +311,11 @@ class Fields(unittest.TestCase):
             ("remap", "m.nc", "grid:30", "-o", "n.nc"),
             ("mesh", "convert", "m.nc", "-o", "n.nc"),
         ):
-            self.assertIn("another place", self.run_tool(*command, status=1))
-        self.run_tool("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
+            self.assertIn("another place", self.said(*command, status=1))
+        self.said("mesh", "convert", "s.xyz", "-o", "m.nc", "--kind", "cdf2")
         with netCDF4.Dataset(self.folder / "m.nc", "a") as data:
             data.sphere_radius = "6371229"
-        said = self.run_tool("mesh", "quality", "m.nc", status=1)
+        said = self.said("mesh", "quality", "m.nc", status=1)
         self.assertIn('the attribute sphere_radius is the text "6371229"', said)
 
     def test_what_is_left_out_is_named(self):
@@ -352,7 +336,7 @@ class Fields(unittest.TestCase):
         data.createVariable("surface", kind, ("lat", "lon"), fill_value=0)
         add(data, "t", ("time", "lat", "lon"), np.ones((2, 6, 6)))
         data.close()
-        said = self.run_tool("apply", "w.nc", "more.nc", "-o", "o.nc")
+        said = self.said("apply", "w.nc", "more.nc", "-o", "o.nc")
         self.assertIn("types are those that the file defines itself: surface", said)
         self.assertIn("no values at the points: time_bnds, height\n", said)
 
@@ -374,7 +358,7 @@ class Fields(unittest.TestCase):
             )
             add(data, "t", ("lat", "lon"), np.ones((6, 6)))
             data.close()
-            said = self.run_tool(
+            said = self.said(
                 "remap", "bounds.nc", "grid:60", "-o", "w.nc", status=int(moved < 0)
             )
             if moved == 0:
@@ -402,7 +386,7 @@ class Fields(unittest.TestCase):
             )
         data.close()
         for pair in (("cells.nc", "grid:30"), ("grid:30", "cells.nc")):
-            said = self.run_tool("remap", *pair, "-o", "n.nc", status=1)
+            said = self.said("remap", *pair, "-o", "n.nc", status=1)
             self.assertRegex(said, r"^rondel: cells.nc: (source|target) cells 0 and 1 overlap")
 
 

@@ -8,18 +8,15 @@ Without netCDF4-python ctest says "Skipped".
 
 import importlib.util
 import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 LON, LAT = np.arange(-170.0, 180, 20), np.arange(-80.0, 81, 20)
 
 
@@ -44,13 +41,11 @@ def add_axes(data, lon=LON, lat=LAT, suffix="", units=("degrees_east", "degrees_
         add(data, name + suffix, (name + suffix,), values, units=unit)
 
 
-class Files(unittest.TestCase):
+class Files(ToolInFolder):
     """A folder with files of netCDF, and the tool in it."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "to.csv").write_text("lon,lat\n10,0\n50,40\n")
 
     def new(self, name):
@@ -64,14 +59,6 @@ class Files(unittest.TestCase):
         add_axes(data)
         add(data, "v", ("lat", "lon"), height(LON[None, :], LAT[:, None]), **attributes)
         data.close()
-
-    def run_tool(self, *arguments, status=0):
-        """What the tool says."""
-        done = subprocess.run(
-            [TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False
-        )
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout + done.stderr
 
     def table(self, name):
         return (self.folder / name).read_text().splitlines()
@@ -87,7 +74,7 @@ class Meaning(Files):
         add(data, "w", ("lat2", "lon2"), np.ones((3, 4)))
         data.close()
         for name, shape in (("v", (len(LAT), len(LON))), ("w", (3, 4))):
-            self.run_tool("interpolate", "grid.nc", "--to", f"two.nc:{name}", "-o", "o.nc")
+            self.said("interpolate", "grid.nc", "--to", f"two.nc:{name}", "-o", "o.nc")
             with netCDF4.Dataset(self.folder / "o.nc") as out:
                 self.assertEqual(out["v"].shape, shape)
         for command in (
@@ -100,7 +87,7 @@ class Meaning(Files):
             ("plot", "two.nc:nosuch", "-o", "n.svg"),
         ):
             with self.subTest(command):
-                said = self.run_tool(*command, status=1)
+                said = self.said(*command, status=1)
                 self.assertEqual(said, 'rondel: two.nc: no variable "nosuch"\n')
                 self.assertFalse(list(self.folder.glob("n.*")))
 
@@ -115,46 +102,46 @@ class Meaning(Files):
         add(data, "histogram", ("bin",), np.arange(count) * 1.0)
         add(data, "table", ("i", "j"), np.ones((len(LAT), len(LON))))
         data.close()
-        said = self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "-o", "o.csv")
+        said = self.said("interpolate", "grid.nc", "--to", "to.csv", "-o", "o.csv")
         self.assertIn("left out, as they have no values at the points: histogram, table", said)
         self.assertEqual(self.table("o.csv")[0], "lon,lat,v")
-        self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
-        said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "o.csv")
+        self.said("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+        said = self.said("apply", "w.nc", "grid.nc", "-o", "o.csv")
         self.assertIn("histogram, table", said)
         self.assertEqual(self.table("o.csv")[0], "lon,lat,v")
         for name in ("histogram", "table"):
-            self.run_tool("apply", "w.nc", f"grid.nc:{name}", "-o", "n.csv", status=1)
+            self.said("apply", "w.nc", f"grid.nc:{name}", "-o", "n.csv", status=1)
 
     def test_weights_that_are_not_finite_are_refused(self):
         self.grid()
         for bad in (np.inf, np.nan):
-            self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+            self.said("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
             with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
                 weights["S"][1] = bad
-            said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
+            said = self.said("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
             self.assertEqual(said, f"rondel: w.nc: weight 1 is {bad}\n")
             self.assertFalse(list(self.folder.glob("n.*")))
 
     def test_areas_of_scrip_are_divided_by_those_of_targets(self):
         self.grid()
-        self.run_tool("remap", "grid.nc", "grid:60", "--format", "scrip", "-o", "w.nc")
-        self.run_tool("apply", "w.nc", "grid.nc", "-o", "right.csv")
+        self.said("remap", "grid.nc", "grid:60", "--format", "scrip", "-o", "w.nc")
+        self.said("apply", "w.nc", "grid.nc", "-o", "right.csv")
         with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
             weights.delncattr("rondel_method")
             weights.normalization = "none"
             rows = weights["dst_address"][:] - 1
             weights["remap_matrix"][:, 0] *= weights["dst_grid_area"][:][rows]
-        said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "o.csv")
+        said = self.said("apply", "w.nc", "grid.nc", "-o", "o.csv")
         self.assertIn('w.nc: the normalization is "none": its weights, which are areas,', said)
         right, found = (
             np.loadtxt(self.folder / name, delimiter=",", skiprows=1)
             for name in ("right.csv", "o.csv")
         )
         np.testing.assert_allclose(found, right, rtol=1e-14)
-        self.assertIn("divided by those of the targets", self.run_tool("check-weights", "w.nc"))
+        self.assertIn("divided by those of the targets", self.said("check-weights", "w.nc"))
         with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
             weights["dst_grid_area"][:] = 0
-        said = self.run_tool("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
+        said = self.said("apply", "w.nc", "grid.nc", "-o", "n.csv", status=1)
         self.assertIn("there are no areas of targets, dst_grid_area, to divide them by", said)
 
     def test_axes_of_cells_are_in_order(self):
@@ -170,7 +157,7 @@ class Meaning(Files):
             data.close()
             for sides in (("wrong.nc", "grid:60"), ("grid:60", "wrong.nc")):
                 with self.subTest(f"{reason} {sides}"):
-                    said = self.run_tool("remap", *sides, "-o", "n.nc", status=1)
+                    said = self.said("remap", *sides, "-o", "n.nc", status=1)
                     self.assertIn(f'wrong.nc: variable "{name}": {reason}', said)
                     self.assertFalse(list(self.folder.glob("n.*")))
 
@@ -179,14 +166,14 @@ class Meaning(Files):
             f"{30 * i + 0.123456789},{10 * (i % 5) + 0.987654321},{i}\n" for i in range(12)
         )
         (self.folder / "s.csv").write_text(text)
-        self.run_tool("interpolate", "s.csv", "--to", "to.csv", "--weights", "w.nc")
-        self.run_tool("apply", "w.nc", "s.csv", "--value", "v", "-o", "right.csv")
+        self.said("interpolate", "s.csv", "--to", "to.csv", "--weights", "w.nc")
+        self.said("apply", "w.nc", "s.csv", "--value", "v", "-o", "right.csv")
         rounded = text.replace("123456789", "12346").replace("987654321", "98765")
         (self.folder / "rounded.csv").write_text(rounded)
-        self.run_tool("apply", "w.nc", "rounded.csv", "--value", "v", "-o", "o.csv")
+        self.said("apply", "w.nc", "rounded.csv", "--value", "v", "-o", "o.csv")
         self.assertEqual(self.table("o.csv"), self.table("right.csv"))
         (self.folder / "far.csv").write_text(text.replace("123456789", "1237"))
-        said = self.run_tool("apply", "w.nc", "far.csv", "--value", "v", "-o", "n.csv", status=1)
+        said = self.said("apply", "w.nc", "far.csv", "--value", "v", "-o", "n.csv", status=1)
         self.assertIn("far.csv: its points are not the sources of w.nc", said)
 
     def staggered(self):
@@ -208,35 +195,35 @@ class Meaning(Files):
         self.staggered()
         (self.folder / "at.csv").write_text("lon,lat\n20,0\n")
         nearest = ("--to", "at.csv", "--method", "nearest", "-o", "o.csv")
-        self.run_tool("interpolate", "c.nc", "--value", "u", *nearest)
+        self.said("interpolate", "c.nc", "--value", "u", *nearest)
         self.assertAlmostEqual(float(self.table("o.csv")[1].split(",")[2]), np.cos(np.pi / 9))
-        said = self.run_tool("interpolate", "c.nc", *nearest)
+        said = self.said("interpolate", "c.nc", *nearest)
         self.assertIn(
             "at other places than lon and lat: u (lon_u and lat), us (lon_u and lat)", said
         )
         self.assertEqual(self.table("o.csv")[0], "lon,lat,t,ts_0,ts_1")
         for names in (("t", "u"), ("u", "t")):
             options = [word for name in names for word in ("--value", name)]
-            said = self.run_tool("interpolate", "c.nc", *options, *nearest, status=1)
+            said = self.said("interpolate", "c.nc", *options, *nearest, status=1)
             self.assertIn('"t"', said)
             self.assertIn('"u"', said)
-        self.run_tool("remap", "c.nc:t", "grid:60", "-o", "w.nc")
-        self.assertIn("u (lon_u and lat)", self.run_tool("apply", "w.nc", "c.nc", "-o", "o.csv"))
+        self.said("remap", "c.nc:t", "grid:60", "-o", "w.nc")
+        self.assertIn("u (lon_u and lat)", self.said("apply", "w.nc", "c.nc", "-o", "o.csv"))
         self.assertEqual(self.table("o.csv")[0], "lon,lat,t,ts_0,ts_1")
-        self.run_tool("apply", "w.nc", "c.nc:u", "-o", "n.csv", status=1)
-        self.assertIn("fields: t, ts (time 2)", self.run_tool("info", "c.nc"))
+        self.said("apply", "w.nc", "c.nc:u", "-o", "n.csv", status=1)
+        self.assertIn("fields: t, ts (time 2)", self.said("info", "c.nc"))
         self.assertFalse(list(self.folder.glob("n.*")))
 
     def test_columns_are_one_of_several_fields(self):
         self.staggered()
         (self.folder / "at.csv").write_text("lon,lat\n20,0\n")
         for name, factor in (("us[0]", 1), ("us[-1]", 2), ("us_1", 2), ("u", 1)):
-            self.run_tool("nearest", "c.nc", "at.csv", "--column", name, "-o", "o.csv")
+            self.said("nearest", "c.nc", "at.csv", "--column", name, "-o", "o.csv")
             self.assertEqual(self.table("o.csv")[0].split(",")[-1], name)
             value = float(self.table("o.csv")[1].split(",")[-1])
             self.assertAlmostEqual(value, factor * np.cos(np.pi / 9))
-        self.run_tool("nearest", "c.nc:ts", "at.csv", "--column", "ts[1]", "-o", "o.csv")
-        said = self.run_tool("nearest", "c.nc", "at.csv", "--column", "us", "-o", "n.csv", status=2)
+        self.said("nearest", "c.nc:ts", "at.csv", "--column", "ts[1]", "-o", "o.csv")
+        said = self.said("nearest", "c.nc", "at.csv", "--column", "us", "-o", "n.csv", status=2)
         self.assertIn("us[0]", said)
         data = self.new("h.nc")
         add_axes(data)
@@ -247,20 +234,20 @@ class Meaning(Files):
         data.close()
         counts = []
         for name in ("h[0]", "h[1]"):
-            self.run_tool(
+            self.said(
                 "mesh", "scvt", "--spacing", f"h.nc:{name}", "--max-steps", "1", "-o", "m.nc"
             )
             with netCDF4.Dataset(self.folder / "m.nc") as mesh:
                 counts.append(len(mesh.dimensions["nCells"]))
         self.assertGreater(counts[1], 3 * counts[0])
-        self.run_tool(
+        self.said(
             "mesh", "scvt", "--spacing", "h.nc:h", "--max-steps", "1", "-o", "n.nc", status=1
         )
 
     def test_grids_that_are_targets_are_told(self):
         self.grid()
         self.staggered()
-        said = self.run_tool("interpolate", "grid.nc", "--to", "c.nc", "-o", "o.nc")
+        said = self.said("interpolate", "grid.nc", "--to", "c.nc", "-o", "o.nc")
         self.assertIn("that of lon and lat is read, not that of lon_u and lat", said)
         data = self.new("curved.nc")
         for name, length in (("y", 3), ("x", 4), ("yu", 3), ("xu", 3)):
@@ -272,9 +259,9 @@ class Meaning(Files):
             add(data, "lat_" + kind, dims, lat, units="degrees_north")
             add(data, "v" + kind, dims, lon, coordinates=f"lon_{kind} lat_{kind}")
         data.close()
-        said = self.run_tool("interpolate", "grid.nc", "--to", "curved.nc", "-o", "o.nc")
+        said = self.said("interpolate", "grid.nc", "--to", "curved.nc", "-o", "o.nc")
         self.assertIn("that of lon_rho and lat_rho is read, not that of lon_u and lat_u", said)
-        said = self.run_tool("interpolate", "grid.nc", "--to", "curved.nc:vu", "-o", "o.nc")
+        said = self.said("interpolate", "grid.nc", "--to", "curved.nc:vu", "-o", "o.nc")
         self.assertNotIn("several grids", said)
         self.assertIn("to 9 targets", said)
 
@@ -285,21 +272,21 @@ class Meaning(Files):
         kind = data.createEnumType(np.uint8, "kind", {"sea": 0, "land": 1})
         data.createVariable("surface", kind, ("lat", "lon"), fill_value=0)
         data.close()
-        said = self.run_tool(
+        said = self.said(
             "interpolate", "enum.nc:surface", "--to", "to.csv", "-o", "n.csv", status=1
         )
         self.assertIn('variable "surface" has a type that the file defines itself', said)
 
     def test_fill_is_said_and_counted(self):
         self.grid()
-        self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+        self.said("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
         values = height(LON[None, :], LAT[:, None])
         values[LAT < 20] = -1e30
         data = self.new("gaps.nc")
         add_axes(data)
         add(data, "v", ("lat", "lon"), values, fill=-1e30)
         data.close()
-        said = self.run_tool("apply", "w.nc", "gaps.nc", "--fill", "-999", "-o", "o.nc")
+        said = self.said("apply", "w.nc", "gaps.nc", "--fill", "-999", "-o", "o.nc")
         self.assertIn("1 values missing", said)
         with netCDF4.Dataset(self.folder / "o.nc") as out:
             self.assertEqual(out["v"].getncattr("_FillValue"), -999)
@@ -316,7 +303,7 @@ class Meaning(Files):
         add(data, "zm", ("level",), np.arange(3.0))
         add(data, "v", ("cell",), height(lon, lat), coordinates="clon clat")
         data.close()
-        said = self.run_tool("interpolate", "cells.nc", "--to", "to.csv", "-o", "o.csv")
+        said = self.said("interpolate", "cells.nc", "--to", "to.csv", "-o", "o.csv")
         self.assertIn(f"{len(lon)} sites", said)
         self.assertEqual(self.table("o.csv")[0], "lon,lat,v")
 
@@ -333,7 +320,7 @@ class Meaning(Files):
         add(data, "grid_corner_lat", corners, lat[:, None] + [-1, -1, 1, 1], units="degrees")
         add(data, "grid_imask", ("grid_size",), mask * 1.0)
         data.close()
-        said = self.run_tool("nearest", "scrip.nc", "scrip.nc", "-o", "o.csv")
+        said = self.said("nearest", "scrip.nc", "scrip.nc", "-o", "o.csv")
         self.assertIn(f"left out {len(lon) - mask.sum()} masked sites", said)
         self.assertEqual(len(self.table("o.csv")), 1 + mask.sum())
         for command in (
@@ -345,7 +332,7 @@ class Meaning(Files):
             ("contours", "scrip.nc", "--value", "grid_imask", "--levels", "1", "-o", "c.geojson"),
         ):
             with self.subTest(command):
-                self.assertIn("masked sites", self.run_tool(*command))
+                self.assertIn("masked sites", self.said(*command))
 
     def test_infinite_values_are_refused(self):
         values = height(LON[None, :], LAT[:, None])
@@ -354,7 +341,7 @@ class Meaning(Files):
         add_axes(data)
         add(data, "v", ("lat", "lon"), values)
         data.close()
-        said = self.run_tool("interpolate", "inf.nc", "--to", "to.csv", "-o", "n.csv", status=1)
+        said = self.said("interpolate", "inf.nc", "--to", "to.csv", "-o", "n.csv", status=1)
         place = 4 * len(LON) + 9
         self.assertEqual(
             said, f'rondel: inf.nc: variable "v": value inf at point {place} is not finite\n'
@@ -370,7 +357,7 @@ class Meaning(Files):
                 add_axes(data)
                 add(data, "v", ("lat", "lon"), values, valid_range=text)
                 data.close()
-                said = self.run_tool("interpolate", "range.nc", "--to", "to.csv", "-o", "o.csv")
+                said = self.said("interpolate", "range.nc", "--to", "to.csv", "-o", "o.csv")
                 value = float(self.table("o.csv")[1].split(",")[2])
                 self.assertEqual(value < 2, is_heeded)
                 self.assertEqual("valid_range is not heeded" in said, not is_heeded)
@@ -387,14 +374,14 @@ class Meaning(Files):
                 ("remap", "units.nc", "grid:90", "-o", "n.nc"),
             ):
                 with self.subTest(command, units=units):
-                    said = self.run_tool(*command, status=1)
+                    said = self.said(*command, status=1)
                     self.assertIn(f"'lon' has the units '{units}'", said)
                     self.assertIn(f"'lat' has the units '{units}'", said)
 
     def test_radius_of_a_mesh_that_is_read(self):
         sites = np.random.default_rng(1).normal(size=(92, 3))
         np.save(self.folder / "sites.npy", sites / np.linalg.norm(sites, axis=1)[:, None])
-        self.run_tool("mesh", "convert", "sites.npy", "-o", "unit.nc")
+        self.said("mesh", "convert", "sites.npy", "-o", "unit.nc")
         radius = 6371229.0
         (self.folder / "none.csv").write_text("remove\n" + "0\n" * 92)
         for command in (
@@ -402,7 +389,7 @@ class Meaning(Files):
             ("cull", "unit.nc", "-o", "o.nc", "--mask", "none.csv:remove"),
         ):
             with self.subTest(command):
-                self.run_tool("mesh", *command, "--sphere-radius", str(radius))
+                self.said("mesh", *command, "--sphere-radius", str(radius))
                 with (
                     netCDF4.Dataset(self.folder / "unit.nc") as unit,
                     netCDF4.Dataset(self.folder / "o.nc") as out,
@@ -424,36 +411,36 @@ class Meaning(Files):
                         wanted = unit[name][:] * radius**power
                         np.testing.assert_allclose(out[name][:], wanted, 1e-12, 1e-9 * power)
                 # Without the option the mesh keeps its own.
-                self.run_tool("mesh", "convert", "o.nc", "-o", "again.nc")
+                self.said("mesh", "convert", "o.nc", "-o", "again.nc")
                 with netCDF4.Dataset(self.folder / "again.nc") as again:
                     self.assertEqual(again.sphere_radius, radius)
 
     def test_masks_and_fields_of_any_number_type(self):
         sites = np.random.default_rng(2).normal(size=(50, 3))
         np.save(self.folder / "sites.npy", sites / np.linalg.norm(sites, axis=1)[:, None])
-        self.run_tool("mesh", "convert", "sites.npy", "-o", "mesh.nc")
-        self.run_tool("interpolate", "sites.npy", "--to", "to.csv", "--weights", "w.npz")
+        self.said("mesh", "convert", "sites.npy", "-o", "mesh.nc")
+        self.said("interpolate", "sites.npy", "--to", "to.csv", "--weights", "w.npz")
         mask = np.zeros(50)
         mask[7] = 1
         results = set()
         for dtype in ("f8", "f4", "?", "u1", "i1", "<i2", ">u2", "i4", ">i4", "u4", "i8", "u8"):
             with self.subTest(dtype):
                 np.save(self.folder / "mask.npy", mask.astype(dtype))
-                self.run_tool("mesh", "cull", "mesh.nc", "--mask", "mask.npy", "-o", "o.nc")
+                self.said("mesh", "cull", "mesh.nc", "--mask", "mask.npy", "-o", "o.nc")
                 with netCDF4.Dataset(self.folder / "o.nc") as out:
                     self.assertEqual(out.dimensions["nCells"].size, 49)
                 values = np.array([np.arange(50), mask]).astype(dtype)
                 np.save(self.folder / "values.npy", values)
-                self.run_tool("apply", "w.npz", "values.npy", "-o", "o.npy")
+                self.said("apply", "w.npz", "values.npy", "-o", "o.npy")
                 found = np.load(self.folder / "o.npy")
                 if dtype != "?":
                     results.add(found.tobytes())
         self.assertEqual(len(results), 1)
         np.save(self.folder / "values.npy", np.full(50, 2**53 + 1))
-        said = self.run_tool("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
+        said = self.said("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
         self.assertIn("9007199254740993 is no double", said)
         np.save(self.folder / "values.npy", np.zeros(50, complex))
-        said = self.run_tool("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
+        said = self.said("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
         self.assertIn('dtype "<c16"', said)
 
     def test_masked_cells_of_scrip_are_no_sites(self):
@@ -485,17 +472,17 @@ class Meaning(Files):
                 if m
             )
         )
-        said = self.run_tool("interpolate", "scrip.nc:v", "--to", "to.csv", "-o", "o.csv")
+        said = self.said("interpolate", "scrip.nc:v", "--to", "to.csv", "-o", "o.csv")
         self.assertIn("left out", said)
-        self.run_tool(
+        self.said(
             "interpolate", "kept.csv", "--value", "v", "--to", "to.csv", "-o", "kept.o.csv"
         )
         self.assertEqual(self.table("o.csv"), self.table("kept.o.csv"))
-        self.run_tool("interpolate", "scrip.nc:v", "--to", "to.csv", "--weights", "w.nc")
+        self.said("interpolate", "scrip.nc:v", "--to", "to.csv", "--weights", "w.nc")
         with netCDF4.Dataset(self.folder / "w.nc") as weights:
             self.assertEqual(list(weights["src_grid_dims"][:]), [len(LON), len(LAT)])
             self.assertEqual(list(weights["mask_a"][:]), list(mask))
-        self.run_tool("apply", "w.nc", "scrip.nc:v", "-o", "o.csv")
+        self.said("apply", "w.nc", "scrip.nc:v", "-o", "o.csv")
         self.assertEqual(
             [row.split(",")[-1] for row in self.table("o.csv")],
             [row.split(",")[-1] for row in self.table("kept.o.csv")],
@@ -503,7 +490,7 @@ class Meaning(Files):
 
     def test_weights_have_the_shape_of_the_grid(self):
         self.grid()
-        self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+        self.said("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
         with netCDF4.Dataset(self.folder / "w.nc") as weights:
             self.assertEqual(list(weights["src_grid_dims"][:]), [len(LON), len(LAT)])
 
@@ -520,14 +507,14 @@ class Meaning(Files):
         expected = None
         for units, factor in (("", 1), ("m", 1000)):
             with self.subTest(units):
-                self.run_tool(*cells(units, factor), "--quiet")
+                self.said(*cells(units, factor), "--quiet")
                 with netCDF4.Dataset(self.folder / "mesh.nc") as mesh:
                     number = mesh.dimensions["nCells"].size
                 expected = expected or number
                 self.assertEqual(number, expected)
         for units in ("degrees", "1"):
             with self.subTest(units):
-                said = self.run_tool(*cells(units, 1), "--quiet", status=1)
+                said = self.said(*cells(units, 1), "--quiet", status=1)
                 self.assertIn(f"the spacings have the units '{units}'", said)
 
     def test_weights_without_entries_are_read_by_others(self):
@@ -538,16 +525,16 @@ class Meaning(Files):
             feature = {"type": "Feature", "properties": {}, "geometry": geometry}
             (self.folder / name).write_text(json.dumps(feature))
         for options in ([], ["--kind", "cdf2"], ["--kind", "cdf5"], ["--format", "scrip"]):
-            self.run_tool("remap", "a.geojson", "b.geojson", "-o", "w.nc", *options)
+            self.said("remap", "a.geojson", "b.geojson", "-o", "w.nc", *options)
             with netCDF4.Dataset(self.folder / "w.nc") as data:
                 lengths = {name: data[name][:].shape for name in data.variables}
                 area = data["src_grid_area" if "scrip" in options else "area_a"][:]
             self.assertIn((0,), lengths.values(), options)
             self.assertEqual(area.shape, (1,))
             self.assertGreater(area[0], 0.03)
-            self.run_tool("check-weights", "w.nc")
+            self.said("check-weights", "w.nc")
         (self.folder / "none.geojson").write_text('{"type":"FeatureCollection","features":[]}')
-        said = self.run_tool("remap", "none.geojson", "b.geojson", "-o", "n.nc", status=1)
+        said = self.said("remap", "none.geojson", "b.geojson", "-o", "n.nc", status=1)
         self.assertEqual(said, "rondel: none.geojson: there are no cells\n")
         self.assertFalse((self.folder / "n.nc").exists())
 
@@ -561,7 +548,7 @@ class Meaning(Files):
                 for k, (axis, unit) in enumerate((("lon", "degrees_east"), ("lat", "degrees_north"))):
                     add(data, axis, ("time", "x"), centers, units=unit, bounds=axis + "_bnds")
                     add(data, axis + "_bnds", ("time", "x", "corner"), centers[..., None] + half[k])
-            said = self.run_tool("remap", name, "grid:30", "-o", "w.nc", status=status)
+            said = self.said("remap", name, "grid:30", "-o", "w.nc", status=status)
             if status:
                 self.assertIn('the bounds "lon_bnds" are 15 and 17.5 for one place', said)
 

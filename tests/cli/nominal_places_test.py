@@ -41,14 +41,14 @@ class Nominal(Files):
     def test_true_places_come_before_nominal_axes(self):
         for names in (("geolon", "geolat"), ("geolon_t", "geolat_t"), ("TLONG", "TLAT")):
             self.ocean("o.nc", *names)
-            self.run_tool("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
+            self.said("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
             lon, lat = tripolar()
             with netCDF4.Dataset(self.folder / "v.nc") as out:
                 self.assertTrue(np.allclose(out["lon"][:], lon))
                 self.assertTrue(np.allclose(out["depth"][:], height(lon, lat)))
-            said = self.run_tool("remap", "o.nc", "grid:10", "-o", "w.nc", status=1)
+            said = self.said("remap", "o.nc", "grid:10", "-o", "w.nc", status=1)
             self.assertIn("have no bounds, so no cells, and the axes", said)
-            self.run_tool("remap", "o.nc", "grid:10", "-o", "w.nc", "--corners", "made")
+            self.said("remap", "o.nc", "grid:10", "-o", "w.nc", "--corners", "made")
             with netCDF4.Dataset(self.folder / "w.nc") as weights:
                 self.assertLess(float(weights["yc_a"][:].max()), 71)
                 self.assertGreater(float(weights["yc_a"][:].max()), 69)
@@ -64,13 +64,13 @@ class Nominal(Files):
                 add(data, name, ("yh", "xh"), values)
             add(data, "depth", ("yh", "xh"), height(lon, lat))
             data.close()
-            self.run_tool("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
+            self.said("interpolate", "o.nc", "--method", "nearest", "--to", "o.nc", "-o", "v.nc")
             with netCDF4.Dataset(self.folder / "v.nc") as out:
                 self.assertTrue(np.allclose(out["lat"][:], lat))
 
     def test_fields_of_degrees_are_no_places(self):
         self.ocean("o.nc", "lon_of_origin", "lat_of_origin")
-        self.run_tool("interpolate", "o.nc:depth", "--method", "nearest", "--to", "o.nc:depth",
+        self.said("interpolate", "o.nc:depth", "--method", "nearest", "--to", "o.nc:depth",
                       "-o", "v.nc")
         with netCDF4.Dataset(self.folder / "v.nc") as out:
             self.assertEqual(out["lon"].shape, (COLUMNS,))
@@ -78,7 +78,7 @@ class Nominal(Files):
 
     def test_coordinates_that_are_not_there_are_told(self):
         self.ocean("o.nc", coordinates="geolon_t geolat_t", has_true=False)
-        said = self.run_tool("regrid", "o.nc", "grid:10", "-o", "v.nc")
+        said = self.said("regrid", "o.nc", "grid:10", "-o", "v.nc")
         for name in ("geolon_t", "geolat_t"):
             self.assertIn(
                 f"there is no variable '{name}', which the attribute coordinates of 'depth' names",
@@ -93,8 +93,8 @@ class OtherOrders(Files):
         add(data, "v", ("lat", "lon"), height(LON[None, :], LAT[:, None]))
         data.close()
         for grid in ("F8", "healpix:2", "O8", "C8"):
-            self.run_tool("regrid", "v.nc", grid, "--method", "linear", "-o", "on.nc", "--quiet")
-            self.run_tool("remap", "on.nc", "grid:30", "-o", "right.nc")
+            self.said("regrid", "v.nc", grid, "--method", "linear", "-o", "on.nc", "--quiet")
+            self.said("remap", "on.nc", "grid:30", "-o", "right.nc")
             with netCDF4.Dataset(self.folder / "on.nc") as on, netCDF4.Dataset(
                 self.folder / "turned.nc", "w", format="NETCDF3_64BIT_OFFSET"
             ) as turned:
@@ -109,7 +109,7 @@ class OtherOrders(Files):
                     texts = {key: item.getncattr(key) for key in item.ncattrs()}
                     fill = texts.pop("_FillValue", None)
                     add(turned, name, item.dimensions, values, fill, **texts)
-            self.run_tool("remap", "turned.nc", "grid:30", "-o", "w.nc")
+            self.said("remap", "turned.nc", "grid:30", "-o", "w.nc")
             with netCDF4.Dataset(self.folder / "right.nc") as right, netCDF4.Dataset(
                 self.folder / "w.nc"
             ) as weights:
@@ -117,13 +117,13 @@ class OtherOrders(Files):
                     south = weights["yc_a"][0]
                     self.assertAlmostEqual(float(south), -float(right["yc_a"][0]), 6)
                 np.testing.assert_allclose(np.sort(weights["S"][:]), np.sort(right["S"][:]), rtol=1e-9)
-            self.run_tool("regrid", "on.nc", "grid:30", "-o", "a.nc", "--quiet")
-            self.run_tool("regrid", "turned.nc", "grid:30", "-o", "b.nc", "--quiet")
+            self.said("regrid", "on.nc", "grid:30", "-o", "a.nc", "--quiet")
+            self.said("regrid", "turned.nc", "grid:30", "-o", "b.nc", "--quiet")
             with netCDF4.Dataset(self.folder / "a.nc") as a, netCDF4.Dataset(self.folder / "b.nc") as b:
                 np.testing.assert_allclose(a["v"][:], b["v"][:], rtol=1e-9)
 
     def test_corners_are_not_made_of_what_is_no_grid_of_rows(self):
-        self.run_tool("remap", "C4", "grid:30", "-o", "c.nc")
+        self.said("remap", "C4", "grid:30", "-o", "c.nc")
         with netCDF4.Dataset(self.folder / "c.nc") as weights:
             lon, lat = weights["xc_a"][:], weights["yc_a"][:]
         for name, shape, way_out in (
@@ -138,25 +138,25 @@ class OtherOrders(Files):
             add(data, "lon", dimensions, np.reshape(lon, shape), units="degrees_east")
             add(data, "lat", dimensions, np.reshape(lat, shape), units="degrees_north")
             data.close()
-            said = self.run_tool("remap", name, "grid:30", "-o", "w.nc", status=1)
+            said = self.said("remap", name, "grid:30", "-o", "w.nc", status=1)
             self.assertIn("have no bounds, so no cells", said)
             self.assertIn(way_out, said)
 
     def test_rows_without_a_place_are_told(self):
         (self.folder / "s.csv").write_text("name,lon,lat\na,1,1\nb,,\nc,10,10\n")
-        self.run_tool("generate", "uniform", "-n", "5", "-o", "u.csv")
+        self.said("generate", "uniform", "-n", "5", "-o", "u.csv")
         for command in (
             ("overlay", "s.csv", "s.csv", "-o", "o.geojson"),
             ("relate", "s.csv", "s.csv", "-o", "o.csv"),
             ("buffer", "s.csv", "--distance", "5", "-o", "o.geojson"),
         ):
-            said = self.run_tool(*command)
+            said = self.said(*command)
             self.assertIn("left out 1 row without a place; features are numbered without it", said)
         (self.folder / "e.csv").write_text("0,1\n")
-        said = self.run_tool("triangulate", "s.csv", "--constraints", "e.csv", "-o", "o.npy",
+        said = self.said("triangulate", "s.csv", "--constraints", "e.csv", "-o", "o.npy",
                              status=1)
         self.assertIn("e.csv: it counts the rows of s.csv, of which 1 has no place", said)
-        said = self.run_tool("mesh", "scvt", "-n", "20", "--fixed", "s.csv", "-o", "o.nc", status=1)
+        said = self.said("mesh", "scvt", "-n", "20", "--fixed", "s.csv", "-o", "o.nc", status=1)
         self.assertIn("s.csv: 1 row has no place", said)
 
     def test_columns_of_targets_stand_beside_the_values(self):
@@ -169,18 +169,18 @@ class OtherOrders(Files):
         wanted = 'lon,lat,ID,name,z,v\n1,2,7,a b,5,3\n7,50,9,"x,y",,9\n'
         nearest = ("interpolate", "s.csv", "--value", "v", "--method", "nearest", "--to")
         for file in ("o.csv", "o.nc"):
-            self.run_tool(*nearest, "to.csv", "-o", file, "--weights", "w.nc")
+            self.said(*nearest, "to.csv", "-o", file, "--weights", "w.nc")
         self.assertEqual((self.folder / "o.csv").read_text(), wanted)
         with netCDF4.Dataset(self.folder / "o.nc") as out:
             self.assertEqual(out["name"][:].tolist(), ["a b", "x,y"])
             np.testing.assert_array_equal(out["ID"][:], [7, 9])
-        self.run_tool("apply", "w.nc", "s.csv", "--value", "v", "-o", "a.csv")
+        self.said("apply", "w.nc", "s.csv", "--value", "v", "-o", "a.csv")
         self.assertEqual((self.folder / "a.csv").read_text(), wanted)
-        self.run_tool(*nearest, "to.geojson", "-o", "o.csv")
+        self.said(*nearest, "to.geojson", "-o", "o.csv")
         self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,name,lat_,v\n1,2,p,1,3\n")
-        self.run_tool(*nearest, "space.csv", "-o", "o.csv")
+        self.said(*nearest, "space.csv", "-o", "o.csv")
         self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,w,v\n0,90,own,9\n")
-        self.run_tool(*nearest, "to.csv", "--lon", "z", "--lat", "lat", "-o", "o.csv", status=1)
+        self.said(*nearest, "to.csv", "--lon", "z", "--lat", "lat", "-o", "o.csv", status=1)
 
     def test_degrees_and_heights_are_no_places_in_space(self):
         rows = "-74.0,40.7,10\n2.35,48.85,35\n139.7,35.7,40\n-43,-23,0\n"
@@ -190,9 +190,9 @@ class OtherOrders(Files):
         np.savetxt(self.folder / "cloud.xyz", 60 * unit / np.abs(unit).max())
         np.savetxt(self.folder / "near.xyz", 90 * unit / np.linalg.norm(unit, axis=1)[:, None])
         look = "x, y and z look like longitude, latitude and height, but are taken as places in space; "
-        said = self.run_tool("delaunay", "h.csv", "-o", "o.npy")
+        said = self.said("delaunay", "h.csv", "-o", "o.npy")
         self.assertIn("h.csv: " + look + "--lon x --lat y takes degrees", said)
-        said = self.run_tool("delaunay", "h.xyz", "-o", "o.npy")
+        said = self.said("delaunay", "h.xyz", "-o", "o.npy")
         self.assertIn("h.xyz: " + look + ".csv with the columns lon and lat has degrees", said)
         for told in (
             ("h.csv", "--lon", "X", "--lat", "Y"),
@@ -200,15 +200,15 @@ class OtherOrders(Files):
             ("cloud.xyz",),
             ("near.xyz",),
         ):
-            self.assertNotIn("look like", self.run_tool("delaunay", *told, "-o", "o.npy"))
+            self.assertNotIn("look like", self.said("delaunay", *told, "-o", "o.npy"))
 
     def test_endings_in_capitals_are_endings(self):
         (self.folder / "S.CSV").write_text("lon,lat,t\n1,1,5\n10,10,6\n-30,3,7\n0,60,8\n")
         (self.folder / "t.csv").write_text("lon,lat\n2,2\n")
-        self.run_tool("interpolate", "S.CSV", "--to", "t.csv", "--weights", "w.nc")
+        self.said("interpolate", "S.CSV", "--to", "t.csv", "--weights", "w.nc")
         (self.folder / "OTHER.CSV").write_text("lon,lat,t\n10,10,6\n1,1,5\n-30,3,7\n0,60,8\n")
-        self.run_tool("apply", "w.nc", "S.CSV", "--value", "t", "-o", "o.csv")
-        said = self.run_tool("apply", "w.nc", "OTHER.CSV", "--value", "t", "-o", "o.csv", status=1)
+        self.said("apply", "w.nc", "S.CSV", "--value", "t", "-o", "o.csv")
+        said = self.said("apply", "w.nc", "OTHER.CSV", "--value", "t", "-o", "o.csv", status=1)
         self.assertIn("OTHER.CSV", said)
         box = {
             "type": "Feature",
@@ -216,9 +216,9 @@ class OtherOrders(Files):
             "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 0]]]},
         }
         (self.folder / "B.GEOJSON").write_text(json.dumps(box))
-        self.assertIn("1 feature", self.run_tool("info", "B.GEOJSON"))
+        self.assertIn("1 feature", self.said("info", "B.GEOJSON"))
         self.grid()
-        self.run_tool("regrid", "grid.nc", "B.GEOJSON", "--edges", "geodesic", "-o", "o.csv")
+        self.said("regrid", "grid.nc", "B.GEOJSON", "--edges", "geodesic", "-o", "o.csv")
 
     def masked_targets(self):
         """Four cells of SCRIP in mask.nc, of which the second and the last one are masked."""
@@ -239,7 +239,7 @@ class OtherOrders(Files):
         self.grid()
         self.masked_targets()
         for options in ((), ("--extrapolate", "nearest")):
-            self.run_tool("interpolate", "grid.nc", "--to", "mask.nc", "--weights", "w.nc",
+            self.said("interpolate", "grid.nc", "--to", "mask.nc", "--weights", "w.nc",
                           "-o", "o.csv", *options)
             with open(self.folder / "o.csv", newline="") as file:
                 values = [row["v"] for row in csv.DictReader(file)]
@@ -254,7 +254,7 @@ class OtherOrders(Files):
         rows = "".join(f"{lon},{lat},{t}\n" for lon, lat, t in sites)
         (self.folder / "s.csv").write_text("lon,lat,t\n" + rows)
         self.masked_targets()
-        self.run_tool("interpolate", "s.csv", "--value", "t", "--to", "mask.nc", "--method",
+        self.said("interpolate", "s.csv", "--value", "t", "--to", "mask.nc", "--method",
                       "nearest_d2s", "-o", "o.csv")
         with open(self.folder / "o.csv", newline="") as file:
             values = [row["t"] for row in csv.DictReader(file)]
@@ -270,7 +270,7 @@ class Values(Files):
         data.setncattr("rondel_grid", "healpix:1:nested")
         data.close()
         for options in ((), ("--statistics", "majority"), ("--statistics", "minority")):
-            self.run_tool("regrid", "q.nc", "healpix:0", "--source", "healpix:1:nested", *options,
+            self.said("regrid", "q.nc", "healpix:0", "--source", "healpix:1:nested", *options,
                           "-o", "o.nc")
             with netCDF4.Dataset(self.folder / "o.nc") as out:
                 name = "_".join(["kind", *options[1:]])
@@ -284,7 +284,7 @@ class Values(Files):
             raw = np.arange(len(LON) * len(LAT), dtype=np.int16).reshape(len(LAT), len(LON))
             add(data, "v", ("lat", "lon"), raw, scale_factor=scale, add_offset=offset)
             data.close()
-            self.run_tool("regrid", "big.nc", "grid:20", "--method", "nearest", "-o", "o.nc")
+            self.said("regrid", "big.nc", "grid:20", "--method", "nearest", "-o", "o.nc")
             with netCDF4.Dataset(self.folder / "o.nc") as out:
                 self.assertEqual(out["v"].dtype.str[1:], kind, (scale, offset))
                 self.assertEqual(len(np.unique(np.asarray(out["v"][:]))), raw.size)
@@ -295,10 +295,10 @@ class Values(Files):
             ("regrid", "grid.nc", "grid:30", "--value", "v", "--value", "v", "-o", "o.nc"),
             ("interpolate", "grid.nc", "--value", "v", "--value", "v", "--to", "to.csv", "-o", "o.csv"),
         ):
-            self.assertIn('"v" is named twice', self.run_tool(*command, status=1))
+            self.assertIn('"v" is named twice', self.said(*command, status=1))
         (self.folder / "s.csv").write_text("lon,lat,v\n1,2,3\n40,5,6\n7,90,9\n")
         twice = ("--value", "v", "--value", "v", "--to", "to.csv", "-o", "o.csv")
-        self.assertIn("--value: 'v' is named twice", self.run_tool("interpolate", "s.csv", *twice, status=2))
+        self.assertIn("--value: 'v' is named twice", self.said("interpolate", "s.csv", *twice, status=2))
 
     def test_two_names_of_one_field_are_refused(self):
         data = self.new("times.nc")
@@ -317,9 +317,9 @@ class Values(Files):
                 ("regrid", "times.nc", "grid:30", *values, "-o", "o.nc"),
                 ("interpolate", "times.nc", *values, "--to", "to.csv", "-o", "o.csv"),
             ):
-                said = self.run_tool(*command, status=1)
+                said = self.said(*command, status=1)
                 self.assertIn(f'"{names[0]}" and "{names[1]}" {what}', said)
-        self.run_tool("regrid", "times.nc", "grid:30", "--value", "v[0]", "--value", "v[1]", "-o", "o.nc")
+        self.said("regrid", "times.nc", "grid:30", "--value", "v[0]", "--value", "v[1]", "-o", "o.nc")
 
 
 class MeshesOfOceans(Files):
@@ -349,7 +349,7 @@ class MeshesOfOceans(Files):
         return data
 
     def depths_of(self, name):
-        self.run_tool("mesh", "convert", name, "-o", "fort.14")
+        self.said("mesh", "convert", name, "-o", "fort.14")
         rows = (self.folder / "fort.14").read_text().split("\n")[2:6]
         return [float(row.split()[3]) for row in rows]
 
@@ -367,7 +367,7 @@ class MeshesOfOceans(Files):
         data = self.mesh("a.nc")
         add(data, "drag", ("node",), [1.0, 2, 3, 4], units="m")
         data.close()
-        said = self.run_tool("mesh", "convert", "a.nc", "-o", "fort.14")
+        said = self.said("mesh", "convert", "a.nc", "-o", "fort.14")
         self.assertIn("left out, as they are no part of the mesh: drag", said)
 
     def test_faces_that_are_the_last_dimension(self):
@@ -375,7 +375,7 @@ class MeshesOfOceans(Files):
         add(data, "lonc", ("nele",), [20 / 3, 10 / 3], units="degrees_east")
         add(data, "latc", ("nele",), [10 / 3, 20 / 3], units="degrees_north")
         data.close()
-        self.run_tool("remap", "t.nc", "grid:10", "-o", "w.nc")
+        self.said("remap", "t.nc", "grid:10", "-o", "w.nc")
         with netCDF4.Dataset(self.folder / "w.nc") as weights:
             self.assertEqual(len(weights.dimensions["n_a"]), 2)
         many = 400
@@ -393,7 +393,7 @@ class MeshesOfOceans(Files):
              "face_node_connectivity": "nv"}
         )
         data.close()
-        said = self.run_tool("remap", "many.nc", "grid:10", "-o", "w.nc", status=1)
+        said = self.said("remap", "many.nc", "grid:10", "-o", "w.nc", status=1)
         self.assertIn("the attribute face_dimension of \"mesh\" must say so", said)
 
 
@@ -416,7 +416,7 @@ class Statistics(Files):
             },
         }
         (self.folder / "b.geojson").write_text(json.dumps(box))
-        self.run_tool("regrid", "two.nc:u", "b.geojson", "--statistics", "mean", "-o", "o.csv")
+        self.said("regrid", "two.nc:u", "b.geojson", "--statistics", "mean", "-o", "o.csv")
         with open(self.folder / "o.csv", newline="") as file:
             row = next(csv.DictReader(file))
         self.assertAlmostEqual(float(row["u_mean"]), 2)

@@ -8,18 +8,14 @@ Without netCDF4-python ctest says "Skipped".
 
 import importlib.util
 import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
-
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+from tool_in_folder import ToolInFolder
 
 
 def lines(centers, least, most):
@@ -38,11 +34,9 @@ def shares(source, target, period=None):
     return found
 
 
-class Regrid(unittest.TestCase):
+class Regrid(ToolInFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         generator = np.random.default_rng(1)
         self.lat = np.linspace(90, -90, 31)
         self.lon = np.arange(0, 360, 6.0)
@@ -75,9 +69,7 @@ class Regrid(unittest.TestCase):
             crs.grid_mapping_name = "latitude_longitude"
 
     def regrid(self, *arguments, status=0):
-        done = subprocess.run([TOOL, "regrid", *arguments], cwd=self.folder, capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done
+        return self.finished("regrid", *arguments, status=status)
 
     def sums(self, nlon, nlat):
         """The means over a grid by NumPy, and the share of each cell that has values."""

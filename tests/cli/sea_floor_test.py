@@ -8,32 +8,27 @@ Without netCDF4-python ctest says "Skipped".
 
 import importlib.util
 import json
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 if importlib.util.find_spec("netCDF4") is None:
     sys.exit(77)
 import netCDF4
 import numpy as np
+from tool_in_folder import ToolInFolder
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 BOX = {"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [10, 8], [0, 8], [0, 0]]]}
 
 
-class Files(unittest.TestCase):
+class Files(ToolInFolder):
     """A folder with a box in which a mesh is, and the tool in it."""
 
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "box.geojson").write_text(json.dumps(BOX))
 
     def run_tool(self, *arguments):
-        done = subprocess.run([TOOL, *arguments], cwd=self.folder, text=True, capture_output=True, check=False)
+        done = self.tool(*arguments)
         return done.returncode, done.stderr
 
     def depths_in(self, name):
@@ -195,10 +190,10 @@ class DepthsOfMeshes(Files):
         self.mesh(units="m")
         self.assertEqual(self.run_tool("mesh", "convert", "m.nc", "-o", "again.nc", "--quiet"), (0, ""))
         for name in ("m.nc", "again.nc"):
-            done = subprocess.run([TOOL, "info", name], cwd=self.folder, text=True, capture_output=True, check=True)
+            done = self.finished("info", name)
             self.assertIn("mesh convert", done.stdout, name)
         self.grid("g.nc", 1)
-        done = subprocess.run([TOOL, "info", "g.nc"], cwd=self.folder, text=True, capture_output=True, check=True)
+        done = self.finished("info", "g.nc")
         self.assertNotIn("mesh convert", done.stdout)
 
     def test_are_no_other_fields(self):

@@ -9,12 +9,9 @@ The table below has every file that a command reads or writes; the test fails if
 import os
 import pathlib
 import re
-import subprocess
-import sys
-import tempfile
 import unittest
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+from tool_in_folder import ToolInFolder
 
 # The arguments of each command, in which {OPTION} stands for a file, and the files that it reads and writes: their ending where they
 # are one. Options that are left out are not needed.
@@ -101,17 +98,10 @@ FILE = re.compile(r"^  (?:-\w,)?(--[\w-]+)(?:,--[\w-]+)? (FILE|TARGET|KM\|FILE|F
 ARGUMENT = re.compile(r"^  (INPUT|SECOND|TRIANGLES|QUERIES|TARGET|WEIGHTS|VALUES)\b")
 
 
-class SeparateFiles(unittest.TestCase):
+class SeparateFiles(ToolInFolder):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         (self.folder / "sub").mkdir()
-
-    def run_tool(self, *arguments):
-        return subprocess.run(
-            [TOOL, *arguments], cwd=self.folder, capture_output=True, text=True, check=False
-        )
 
     def spellings(self, name):
         """The file under other names; a link and a second name of it are made."""
@@ -145,7 +135,7 @@ class SeparateFiles(unittest.TestCase):
 
     def assert_refused(self, words, said, status=2):
         content = {p: p.read_bytes() for p in self.folder.rglob("*") if p.is_file()}
-        done = self.run_tool(*words)
+        done = self.tool(*words)
         self.assertEqual((done.returncode, done.stdout), (status, ""), (words, done.stderr))
         self.assertIn(said, done.stderr, words)
         self.assertEqual(
@@ -155,7 +145,7 @@ class SeparateFiles(unittest.TestCase):
     def test_every_file_of_every_command_is_in_the_table(self):
         def commands(*group):
             found = re.search(
-                r"Commands[^\n]*:\n(.*?)\n\n'rondel ", self.run_tool(*group, "--help").stdout, re.S
+                r"Commands[^\n]*:\n(.*?)\n\n'rondel ", self.tool(*group, "--help").stdout, re.S
             )
             names = re.findall(r"^  ([\w-]+) ", found[1], re.M)
             return [" ".join((*group, name)) for name in names if (*group, name) != ("mesh",)]
@@ -163,7 +153,7 @@ class SeparateFiles(unittest.TestCase):
         every = commands() + commands("mesh")
         self.assertEqual(sorted(every), sorted(COMMANDS))
         for command in every:
-            lines = self.run_tool(*command.split(), "--help").stdout.splitlines()
+            lines = self.tool(*command.split(), "--help").stdout.splitlines()
             found = {m[1] for line in lines if (m := FILE.match(line) or ARGUMENT.match(line))}
             _, read, written = COMMANDS[command]
             self.assertEqual(found, {*read, *written, *APART.get(command, ())}, command)
@@ -238,7 +228,7 @@ class SeparateFiles(unittest.TestCase):
                 (self.folder / f"folder{ending}").mkdir(exist_ok=True)
                 words = self.arguments(command, {**given, option: f"folder{ending}"})
                 self.assert_refused(words, f"folder{ending}: Is a directory", status=1)
-            self.assertEqual(self.run_tool(*self.arguments(command, given)).returncode, 0, command)
+            self.assertEqual(self.tool(*self.arguments(command, given)).returncode, 0, command)
             for option, name in given.items():
                 if option in written:
                     (self.folder / name).unlink()
@@ -255,7 +245,7 @@ class SeparateFiles(unittest.TestCase):
     def test_different_files_are_none(self):
         """A second name of nothing, names that begin as others do, a device for several outputs."""
         self.assertEqual(
-            self.run_tool("generate", "uniform", "-n", "20", "-o", "s.csv").returncode, 0
+            self.tool("generate", "uniform", "-n", "20", "-o", "s.csv").returncode, 0
         )
         for words in (
             ("mesh", "convert", "s.csv", "-o", "s.nc", "--graph", "s", "--report", "s.c"),
@@ -271,7 +261,7 @@ class SeparateFiles(unittest.TestCase):
                 "/dev/null",
             ),
         ):
-            done = self.run_tool(*words)
+            done = self.tool(*words)
             self.assertEqual(done.returncode, 0, done.stderr)
 
 

@@ -7,10 +7,9 @@ import csv
 import json
 import math
 import re
-import subprocess
 import unittest
 
-from told_test import TOOL, Told, box, netcdf_file
+from told_test import Told, box, netcdf_file
 
 SITES = "lon,lat,v\n0,0,1\n90,5,2\n180,0,3\n-90,0,4\n0,80,5\n3,-70,6\n"
 
@@ -23,14 +22,7 @@ class WithSites(Told):
 
     def pipe(self, name, *arguments, status=0, told=""):
         with open(self.folder / name, "rb") as file:
-            done = subprocess.run(
-                [TOOL, *arguments, "--quiet"],
-                cwd=self.folder,
-                stdin=file,
-                text=True,
-                capture_output=True,
-                check=False,
-            )
+            done = self.tool(*arguments, "--quiet", stdin=file)
         self.assertEqual((done.returncode, done.stderr), (status, told), arguments)
 
     def require_equal(self, a, b):
@@ -144,7 +136,7 @@ class Pipes(WithSites):
         self.succeed("interpolate", "gaps.csv", "--to", "grid:30", "--weights", "w.nc")
         self.succeed("interpolate", "s.csv", "--to", "grid:30", "--value", "v", "-o", "wanted.csv")
         told = "left out 2 rows without a place, as the weights do\n"
-        found = self.run_tool("apply", "w.nc", "gaps.csv", "--value", "v", "-o", "file.csv")
+        found = self.tool("apply", "w.nc", "gaps.csv", "--value", "v", "-o", "file.csv")
         self.assertEqual(found.returncode, 0)
         self.assertIn(f"rondel: gaps.csv: {told}", found.stderr)
         self.pipe("gaps.csv", "apply", "w.nc", "-", "--value", "v", "-o", "pipe.csv", told=f"rondel: <stdin>: {told}")
@@ -152,7 +144,7 @@ class Pipes(WithSites):
         self.require_equal("wanted.csv", "pipe.csv")
         # The rows must be those of the weights.
         (self.folder / "other.csv").write_text("\n".join([lines[0], ",,1000", *lines[2:], lines[1], ",,"]) + "\n")
-        found = self.run_tool("apply", "w.nc", "other.csv", "--value", "v", "-o", "x.csv")
+        found = self.tool("apply", "w.nc", "other.csv", "--value", "v", "-o", "x.csv")
         self.assertEqual(found.returncode, 1)
         self.assertIn("its points are not the sources of w.nc", found.stderr)
 
@@ -161,7 +153,7 @@ class Numbers(WithSites):
     def test_beyond_all_numbers_are_no_fill(self):
         self.succeed("remap", "s.csv", "b.geojson", "-o", "w.nc")
         for text in ("1e400", "-1e400", "inf", "none", "0x10"):
-            done = self.run_tool(
+            done = self.tool(
                 "apply", "w.nc", "s.csv", "--value", "v", f"--fill={text}", "-o", "x.npy"
             )
             self.assertEqual(done.returncode, 2, text)
@@ -267,20 +259,20 @@ class Remarks(WithSites):
 
     def test_of_masks_name_variable_and_value(self):
         self.succeed("mesh", "convert", "s.csv", "-o", "m.nc")
-        done = self.run_tool("mesh", "cull", "m.nc", "--mask", "m.nc:nEdgesOnCell", "-o", "o.nc")
+        done = self.tool("mesh", "cull", "m.nc", "--mask", "m.nc:nEdgesOnCell", "-o", "o.nc")
         self.assertRegex(
             done.stderr, r"\Arondel: m\.nc: 'nEdgesOnCell' of cell 0 is \d+, neither 0 nor 1\n\Z"
         )
 
     def test_of_tolerances_that_are_not_met(self):
-        done = self.run_tool("mesh", "scvt", "-n", "300", "--max-steps", "1", "-o", "o.csv")
+        done = self.tool("mesh", "scvt", "-n", "300", "--max-steps", "1", "-o", "o.csv")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(
             done.stderr,
             r"\Arondel: o\.csv: not converged \(iterations after 1 step\): the mean offset is \S+"
             r" \(--tolerance 0.0001\), the largest \S+ \(--max-tolerance 0.01\)\n\Z",
         )
-        done = self.run_tool("mesh", "equal-area", "o.csv", "--tolerance", "1e-18", "-o", "o.npy")
+        done = self.tool("mesh", "equal-area", "o.csv", "--tolerance", "1e-18", "-o", "o.npy")
         self.assertEqual(done.returncode, 0)
         self.assertRegex(done.stderr, r"\Arondel: o\.npy: areas are within \S+, not within --tol")
 
@@ -328,7 +320,7 @@ class Remarks(WithSites):
             ("contours", "t.nc", "--value", "t", "--step", "1"),
             ("nearest", "t.nc", "s.csv", "--column", "t"),
         ):
-            done = self.run_tool(
+            done = self.tool(
                 *command, "-o", "o.csv" if command[0] == "nearest" else "o.geojson"
             )
             self.assertEqual(done.returncode, 2)
@@ -338,7 +330,7 @@ class Remarks(WithSites):
             )
 
     def test_of_mesh_edges_say_where(self):
-        done = self.run_tool("mesh", "points", "healpix", "--size", "4", "-o", "m.nc")
+        done = self.tool("mesh", "points", "healpix", "--size", "4", "-o", "m.nc")
         self.assertEqual(done.returncode, 1)
         fault = r"\Arondel: m\.nc: the mesh that was made: sites (\d+) \(at (\S+) (\S+)\), .* lie on one circle, .*\n\Z"
         self.assertRegex(done.stderr, fault)
@@ -359,7 +351,7 @@ class Remarks(WithSites):
             whole[:20] + b"\0" + whole[20:],
         ):
             (self.folder / "z.geojson").write_bytes(text)
-            done = self.run_tool("voronoi", "z.geojson", "-o", "o.geojson")
+            done = self.tool("voronoi", "z.geojson", "-o", "o.geojson")
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"\Arondel: z\.geojson:1: not JSON: .*\n\Z")
 

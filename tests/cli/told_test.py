@@ -6,18 +6,15 @@
 import csv
 import json
 import math
-import pathlib
-import subprocess
-import sys
-import tempfile
 import unittest
+
+from tool_in_folder import ToolInFolder
 
 try:
     from scipy.io import netcdf_file
 except ImportError:
     netcdf_file = None
 
-TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 def point(lon, lat, properties, **members):
@@ -31,21 +28,13 @@ def box(west, south, east, north, properties, **members):
     return {"type": "Feature", "properties": properties, "geometry": geometry, **members}
 
 
-class Told(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
-    def run_tool(self, *arguments):
-        return subprocess.run([TOOL, *arguments], cwd=self.folder, text=True, capture_output=True, check=False)
-
+class Told(ToolInFolder):
     def succeed(self, *arguments, told=""):
-        done = self.run_tool(*arguments, "--quiet")
+        done = self.tool(*arguments, "--quiet")
         self.assertEqual((done.returncode, done.stderr), (0, told), arguments)
 
     def refuse(self, status, message, *arguments):
-        done = self.run_tool(*arguments)
+        done = self.tool(*arguments)
         self.assertEqual((done.returncode, done.stderr), (status, f"rondel: {message}\n"), arguments)
 
     def write(self, name, *features):
@@ -210,7 +199,7 @@ class Messages(Told):
         covered = "rondel: f.geojson: 3 features have no cell, as others before have all of their places (first 1 (one))\n"
         options = ("voronoi", "f.geojson", "--densify", "100", "--overlap", "first", "-o", "o.geojson")
         self.succeed(*options, told=covered)
-        done = self.run_tool(*options)
+        done = self.tool(*options)
         self.assertEqual(done.stderr, "rondel: f.geojson: left out 1 feature without a place\n" + covered)
         self.assertEqual([f["properties"]["feature"] for f in self.features("o.geojson")], [0, 4])
         self.write("all.geojson", box(-180, -90, 180, 90, {}))
@@ -221,7 +210,7 @@ class Messages(Told):
         text = "lon,lat,a\n" + "".join(f"{lon},{lat},{1000 if k == 0 else 1}\n" for k, (lon, lat) in enumerate(rows))
         (self.folder / "big.csv").write_text(text)
         for options in ((), ("--quiet",)):
-            done = self.run_tool("mesh", "equal-area", "big.csv", "--area", "a", "-o", "o.csv", *options)
+            done = self.tool("mesh", "equal-area", "big.csv", "--area", "a", "-o", "o.csv", *options)
             self.assertEqual(done.returncode, 1)
             self.assertRegex(done.stderr, r"\Arondel: big\.csv: the areas are not reached: \w+ after .* big\.csv:\d+\n\Z")
         results = []
@@ -235,7 +224,7 @@ class Messages(Told):
     def test_of_sums_whose_fractions_are_not_known(self):
         self.write("b.geojson", box(0, 0, 30, 30, {}))
         self.succeed("remap", "b.geojson", "grid:20", "-o", "w.nc")
-        done = self.run_tool("check-weights", "w.nc")
+        done = self.tool("check-weights", "w.nc")
         self.assertIn("sums of rows are the fractions to ", done.stdout)
         if netcdf_file is None:
             self.skipTest("scipy is not installed")
@@ -246,7 +235,7 @@ class Messages(Told):
         at = bytes(data).index(fractions)
         data[at : at + len(fractions)] = bytes(len(fractions))
         (self.folder / "none.nc").write_bytes(data)
-        done = self.run_tool("check-weights", "none.nc")
+        done = self.tool("check-weights", "none.nc")
         self.assertEqual(done.returncode, 0)
         self.assertIn(f", the least {least:.3g} (the fractions of the targets are not known)\n", done.stdout)
         self.assertIn("sums of rows are at most 1 to ", done.stdout)
