@@ -296,7 +296,7 @@ CellSet CellSet::read(const FileName& file, const CellFileOptions& options,
                              .overlap = options.overlap,
                              .is_taken = options.is_taken};
   // Files of GDAL without polygons are refused by what they have.
-  if (can_read_polygons(file) || formats::is_read_by_gdal(file))
+  if (formats::is_read_by_gdal(file) || can_read_polygons(file))
     return of(read_polygons(file, rules, execution), options.sides, execution);
   const formats::GridOfFile grid = formats::grid_of_file(file, true);
   if (!grid.name.empty()) {

@@ -105,9 +105,9 @@ void require_effects(const RegridFileOptions& options, const FileName& target,
           "norm has no effect with the method largest_share");
   require(options.method == FieldMethod::conservative_2nd || options.limiter == RemapLimiter::none,
           "the limiter has no effect without the method conservative_2nd");
-  const bool has_polygons =
-      can_read_polygons(target) || (options.source && can_read_polygons(*options.source));
-  require(has_polygons || options.cells.edges == PolygonEdges::lonlat,
+  // Files of GDAL are opened to look for polygons.
+  require(options.cells.edges == PolygonEdges::lonlat || can_read_polygons(target) ||
+              (options.source && can_read_polygons(*options.source)),
           "edges have no effect without polygons");
   require(is_of_cells || options.cells.edges == PolygonEdges::lonlat,
           "edges have no effect with a method between places");

@@ -96,7 +96,7 @@ void RegridSide::read_file(const FileName& file, bool has_cells, const Execution
   if (!has_cells) return read_places(file, execution, std::move(names));
   if (!can_read_cells(file)) {
     refuse_points_as_cells(file, execution);
-    if (!can_read_polygons(file) && !is_read_by_gdal(file)) {
+    if (!is_read_by_gdal(file) && !can_read_polygons(file)) {
       throw FileError(file.path +
                       ": it is neither the name of a grid, nor netCDF with cells, nor polygons "
                       "(.geojson, and by GDAL .gpkg .fgb .shp .parquet)");
