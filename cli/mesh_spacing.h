@@ -21,10 +21,6 @@
 
 namespace rondel::cli {
 
-/// The kilometers in a radian on a sphere of radius 6371.229 km, which is that of the Earth in
-/// MPAS.
-inline constexpr double kilometers_per_radian = 6371.229;
-
 /// The options that name files; lengths are kilometers on the Earth of MPAS.
 struct ScvtFiles {
   std::string spacing;              ///< --spacing: kilometers, FILE or FILE:NAME

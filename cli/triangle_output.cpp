@@ -8,7 +8,6 @@
 #include <cstdio>
 
 #include "column_values.h"
-#include "mesh_spacing.h"
 #include "report.h"
 #include "rondel/constrained_features.h"
 #include "rondel/error.h"

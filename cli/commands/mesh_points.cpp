@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "mesh_output.h"
-#include "mesh_spacing.h"
 #include "rondel/error.h"
 #include "rondel/point_sets.h"
 #include "validate.h"

@@ -35,13 +35,11 @@ RONDEL_API std::string_view name_of(Extrapolation method) noexcept;
 /// "inverse_dist", "creep_fill"; nothing for other names.
 RONDEL_API std::optional<Extrapolation> extrapolation_named(std::string_view name);
 
-/// The kilometers in a radian of the distances below, on a sphere of the radius 6371.229 km.
-inline constexpr double extrapolation_radius_km = 6371.229;
-
 struct ExtrapolationOptions {
   Extrapolation method = Extrapolation::nearest;
   /// How far the sources may be that give values; with creep, how far the nearest source with a
-  /// value may be from a target. In kilometers along the sphere; without it, any distance.
+  /// value may be from a target. In kilometers along the sphere (kilometers_per_radian); without it,
+  /// any distance.
   std::optional<double> max_distance_km = std::nullopt;
   unsigned neighbors = 8;  ///< idw: the number of sources
   unsigned exponent = 2;   ///< idw: the power of the distance, a chord of the sphere; at most 100

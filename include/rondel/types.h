@@ -47,6 +47,10 @@ struct LonLat {
   friend bool operator==(const LonLat&, const LonLat&) = default;
 };
 
+/// The kilometers in a radian of lengths that are given in kilometers, on a sphere of the radius
+/// 6371.229 km, which is that of the Earth in MPAS.
+inline constexpr double kilometers_per_radian = 6371.229;
+
 /// The sphere on or near which the sites lie.
 struct Sphere {
   Point center{};

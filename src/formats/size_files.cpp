@@ -379,8 +379,7 @@ SizeRaster raster_of_places(std::span<const Point> places, const SizeRaster& lea
 
 // Returns the length of the longest step, as remarks say it: "7 km".
 std::string text_of_step(const SizeRaster& raster) {
-  constexpr double radius_km = 6371.229;
-  const double km = radius_km * raster.longest_step();
+  const double km = kilometers_per_radian * raster.longest_step();
   // Steps of a face of the cube are kilometers long, and up to that.
   if (!raster.region) return std::to_string(static_cast<int>(std::ceil(km))) + " km";
   std::array<char, 32> text{};

@@ -41,7 +41,7 @@ constexpr double any_square = 5;
 // Returns the square of the chord that is so many kilometers along the sphere; more than any chord
 // for half of the circumference or more.
 double squared_chord_of(double distance_km) {
-  const double half_deg = distance_km / extrapolation_radius_km / 2 * exact::degrees_per_radian;
+  const double half_deg = distance_km / kilometers_per_radian / 2 * exact::degrees_per_radian;
   if (!(half_deg < 90)) return any_square;
   const double half_chord = exact::sine_cosine_of_degrees(half_deg).sine;
   return 4 * half_chord * half_chord;

@@ -50,7 +50,7 @@ double searched(const std::vector<Point>& sources, const std::vector<double>& va
   std::vector<std::pair<double, std::size_t>> near;
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const double angle = angle_between(sources[s], target);
-    if (std::isnan(values[s]) || angle * extrapolation_radius_km > most_km) continue;
+    if (std::isnan(values[s]) || angle * kilometers_per_radian > most_km) continue;
     near.emplace_back(angle, s);
   }
   std::ranges::sort(near);
@@ -172,7 +172,7 @@ TEST(extrapolate, creeping_obeys_the_distance) {
   filled[10 * 30] = 7;  // at the source
   extrapolator.fill(std::vector<double>{7}, filled);
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    const double away = angle_between(targets[t], sources[0]) * extrapolation_radius_km;
+    const double away = angle_between(targets[t], sources[0]) * kilometers_per_radian;
     EXPECT_EQ(!std::isnan(filled[t]), away <= 3000) << away;
   }
 }
