@@ -156,8 +156,12 @@ void interpolate_columns(Job& job, const InterpolateOptions& options,
   }
   drop_own_columns(options, fields, targets);
   const WeightSide side = side_with_cells(job, options, targets, fields);
-  job.time(Stage::write,
-           [&] { write_fields(options.common.target(), fields, side, options.netcdf); });
+  job.time(Stage::write, [&] {
+    FieldWriter writer(options.common.target(), fields, side, options.netcdf, job.execution());
+    tell(writer.remarks());
+    for (const FieldArray& array : fields.arrays) writer.write(array.values);
+    writer.finish();
+  });
 }
 
 // True if each target gets the value of one site, so that flags stay flags.

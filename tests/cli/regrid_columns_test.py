@@ -164,6 +164,13 @@ class Columns(ToolInFolder):
                 file = self.opened(f"out.{ending}")
                 for name in ("a" * 239, "a" * 239 + "_", "é" * 119, "b" * 255):
                     self.assertIn(name, file.variables)
+        for ending in ("nc", "nc4"):
+            said = self.run_tool("interpolate", "long.csv", "--value", names[0], "--value", names[2], "--to", "grid:90",
+                                 "--method", "nearest", "-o", f"values.{ending}", "--quiet")
+            shown = ", ".join(f'"{start}..."' for start in ("a" * 60, "é" * 29))
+            self.assertEqual(said, [f"values.{ending}: names of more than 255 bytes are shortened: {shown}"])
+            file = self.opened(f"values.{ending}")
+            self.assertEqual([float(file[name][0, 0]) for name in ("a" * 239, "é" * 119)], [1, 2])
 
 
 if __name__ == "__main__":
