@@ -4,11 +4,13 @@
 #include "rondel/dynamic.h"
 
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/tuple.h>
 
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -29,11 +31,13 @@ class SharedDynamic : public Shared<DynamicTriangulation> {
   explicit SharedDynamic(const Triangulation& triangulation)
       : Shared(std::in_place, triangulation), threads_(threads_of(triangulation)) {}
 
-  // Changes `size` sites; Ctrl-C ends it.
+  // Changes `size` sites with so many threads, by default as many as the first sites had; Ctrl-C ends
+  // it.
   void change_many(
       std::size_t size,
-      const std::function<void(DynamicTriangulation&, const Execution& execution)>& change) {
-    run_watched(size, threads_, nb::none(), [&](const Execution& execution) {
+      const std::function<void(DynamicTriangulation&, const Execution& execution)>& change,
+      std::optional<unsigned> threads = {}) {
+    run_watched(size, threads.value_or(threads_), nb::none(), [&](const Execution& execution) {
       const std::unique_lock lock(mutex_);
       change(value_, execution);
     });
@@ -92,12 +96,13 @@ void add_changes(nb::class_<SharedDynamic>& type) {
           nb::arg("ids").noconvert(), nb::arg("to").noconvert())
       .def(
           "move_all",
-          [](SharedDynamic& self, const PointsIn& to) {
-            self.change_many(to.shape(0), [&](DynamicTriangulation& t, const Execution& e) {
+          [](SharedDynamic& self, const PointsIn& to, std::optional<unsigned> threads) {
+            const auto change = [&](DynamicTriangulation& t, const Execution& e) {
               t.move_all(points_of(to), e);
-            });
+            };
+            self.change_many(to.shape(0), change, threads);
           },
-          nb::arg("to").noconvert());
+          nb::arg("to").noconvert(), nb::arg("threads").none());
 }
 
 void add_sites(nb::class_<SharedDynamic>& type) {

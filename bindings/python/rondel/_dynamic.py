@@ -232,7 +232,7 @@ class DynamicTriangulation(DynamicSites, Queries):
         to = as_points(np.atleast_2d(as_floats(points, "points")))
         self._state.move(as_indices(np.atleast_1d(ids), "ids"), to)
 
-    def move_all(self, points: ArrayLike) -> None:
+    def move_all(self, points: ArrayLike, *, threads: int | None = None) -> None:
         """Moves all sites at once. They keep their ids.
 
         The triangulation is the one that a build of the points gives. Where sites move by a small
@@ -242,6 +242,8 @@ class DynamicTriangulation(DynamicSites, Queries):
         ----------
         points : array_like, shape (n, 3)
             The new coordinates: row i is for the site `ids[i]`.
+        threads : int, optional
+            The largest number of threads; by default that of the first sites.
 
         Raises
         ------
@@ -263,7 +265,8 @@ class DynamicTriangulation(DynamicSites, Queries):
         array([1, 4, 3, 5], dtype=int32)
 
         """
-        self._state.move_all(as_points(np.atleast_2d(as_floats(points, "points"))))
+        to = as_points(np.atleast_2d(as_floats(points, "points")))
+        self._state.move_all(to, None if threads is None else as_threads(threads))
 
     def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
         """Finds the corners of the face that contains each query point.

@@ -57,11 +57,13 @@ def test_all_sites_move():
     points = clouds.uniform(500)
     sites = rondel.DynamicTriangulation(points)
     sites.remove(7)
-    for length in (0.001, 0.01, 0.5):
+    for length, threads in ((0.001, None), (0.01, 1), (0.5, 3)):
         points = points + length * (clouds.uniform(500, seed=4) - 0.1)
-        sites.move_all(np.delete(points, 7, axis=0))
+        sites.move_all(np.delete(points, 7, axis=0), threads=threads)
         assert np.array_equal(sites.point(8), points[8])
         assert same_as_built(sites)
+    with pytest.raises(ValueError, match="threads must be at least 1"):
+        sites.move_all(sites.snapshot().delaunay.points, threads=0)
 
 
 def test_a_hint_changes_nothing():
