@@ -127,13 +127,15 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
     job.time(Stage::dual, [&] { cell_areas = areas(triangulation, job.execution()); });
   if (!options.circumcenters.empty())
     job.time(Stage::dual, [&] { centers = circumcenters(triangulation, job.execution()); });
+  std::vector<std::string> remarks;
   job.time(Stage::write, [&] {
     if (!options.neighbors.empty()) write_rows<3>(options.neighbors, triangulation.neighbors());
     if (!options.areas.empty()) write_numbers(options.areas, cell_areas);
     if (!options.circumcenters.empty()) write_points(options.circumcenters, centers);
     if (!options.duplicates.empty()) write_rows<2>(options.duplicates, triangulation.duplicates());
-    write_triangles(common.target(), table, triangulation, job.execution());
+    write_triangles(common.target(), table, triangulation, job.execution(), &remarks);
   });
+  tell(common.output, remarks);
   job.report(triangulation, "the triangulation");
   return done;
 }

@@ -207,6 +207,21 @@ std::size_t write_for_model(const CommonOptions& common, const Plan& plan,
   return mesh.triangles.size();
 }
 
+// Writes the faces in `inside`, or all.
+void write_faces(const CommonOptions& common, const SiteTable& table,
+                 const Triangulation& triangulation, const std::vector<Index>* inside, Job& job) {
+  std::vector<std::string> remarks;
+  job.time(Stage::write, [&] {
+    if (inside != nullptr) {
+      write_some_triangles(common.target(), table, triangulation, *inside, job.execution(),
+                           &remarks);
+    } else {
+      write_triangles(common.target(), table, triangulation, job.execution(), &remarks);
+    }
+  });
+  tell(common.output, remarks);
+}
+
 // Throws FileError for files that cannot be read or written, and constraints that cross; UsageError.
 ExitStatus run_triangulate(TriangulateOptions options) {
   require_input(options);
@@ -226,20 +241,13 @@ ExitStatus run_triangulate(TriangulateOptions options) {
   std::vector<double> depths = depths_of_sites(options.common, plan.table);
   add_depths_of_crossings(plan, result, depths);
   const Triangulation& triangulation = result.triangulation;
+  const std::vector<Index>* const wanted = options.is_inside ? &inside : nullptr;
   std::size_t num_for_model = 0;
   if (is_for_model(options.common)) {
-    num_for_model = write_for_model(options.common, plan, result,
-                                    options.is_inside ? &inside : nullptr, depths, job);
+    num_for_model = write_for_model(options.common, plan, result, wanted, depths, job);
+  } else {
+    write_faces(options.common, plan.table, triangulation, wanted, job);
   }
-  job.time(Stage::write, [&] {
-    if (is_for_model(options.common)) return;
-    if (options.is_inside) {
-      write_some_triangles(options.common.target(), plan.table, triangulation, inside,
-                           job.execution());
-    } else {
-      write_triangles(options.common.target(), plan.table, triangulation, job.execution());
-    }
-  });
   const std::size_t num_sites = plan.table.sites.size();
   const std::size_t num_added = num_sites - num_given;
   // Files for models have no ghost faces, nor have those of faces in polygons.

@@ -214,17 +214,20 @@ RONDEL_API bool can_write_sites(const FileName& file);
 /// input site in input order with digits that round-trip. .stl repeats the corners as 32-bit
 /// floats, the only numbers that the format has. GeoJSON has the solid faces only: seen from the
 /// center, ghost faces are flat or reversed.
+/// \param remarks  gets a sentence if faces have no geometry in GeoJSON: two of their corners round to
+///                 opposite places, or they are narrower than what their sides may be off
 /// \throws InvalidInput if the sites of the table are not those of the triangulation.
 RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
-                                const Triangulation& triangulation,
-                                const Execution& execution = {});
+                                const Triangulation& triangulation, const Execution& execution = {},
+                                std::vector<std::string>* remarks = nullptr);
 
 /// Writes some faces, such as those in polygons, in this order, as write_triangles() writes all.
 /// \param faces  indices of faces
 /// \throws InvalidInput as write_triangles(); (the position in `faces`) if there is no such face.
 RONDEL_API void write_some_triangles(const FileName& file, const SiteTable& table,
                                      const Triangulation& triangulation,
-                                     std::span<const Index> faces, const Execution& execution = {});
+                                     std::span<const Index> faces, const Execution& execution = {},
+                                     std::vector<std::string>* remarks = nullptr);
 
 /// The least tolerance in degrees: a tenth of a millimetre on the earth.
 inline constexpr double min_tolerance_deg = 1e-9;

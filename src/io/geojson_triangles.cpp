@@ -4,7 +4,10 @@
 // Writes the solid faces as GeoJSON (RFC 7946), each as a feature with the property `sites`, the
 // input indices of its corners. Ghost faces are left out: seen from the center they are flat or
 // seen from behind, and cover only what other faces cover.
+#include <atomic>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "io/geojson_writer.h"
 #include "io/number.h"
@@ -20,6 +23,7 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
     ++first_solid;
   }
   file.write(features_begin);
+  std::atomic<std::size_t> num_without{0};  // faces without a geometry
   const auto append_feature = [&](std::string& text, Index face, map::FaceMap::Pen& pen) {
     begin_feature(text, face == first_solid);
     text += R"("sites":[)";
@@ -29,7 +33,10 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
     }
     text.back() = ']';
     text += geometry_begin;
-    append_geometry(text, face_map.polygons(mesh.chosen.empty() ? face : mesh.chosen[face], pen));
+    const std::vector<map::LonLatPolygon>& polygons =
+        face_map.polygons(mesh.chosen.empty() ? face : mesh.chosen[face], pen);
+    if (polygons.empty()) ++num_without;
+    append_geometry(text, polygons);
     text += '}';
   };
   mesh.write_faces(file, [&](std::string& text, Index begin, Index end) {
@@ -39,6 +46,13 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
     }
   });
   file.write(features_end);
+  if (num_without == 0 || mesh.remarks == nullptr) return;
+  const std::size_t num_faces = mesh.faces.size() - mesh.ghost_faces.size();
+  mesh.remarks->push_back(
+      std::to_string(num_without) + " of " + std::to_string(num_faces) +
+      (num_without == 1 ? " triangles has no geometry: it is"
+                        : " triangles have no geometry: they are") +
+      " narrower than sides are precise, or two corners round to opposite places");
 }
 
 }  // namespace rondel::io

@@ -29,6 +29,7 @@ struct MeshToWrite {
   std::span<const Index> ghost_faces;  // of `faces`, ascending
   std::span<const Index> chosen;       // the faces of the triangulation, if these are not all
   const Execution& execution;
+  std::vector<std::string>* remarks = nullptr;  // gets what the format does not hold, unless null
 
   [[nodiscard]] bool is_ghost(Index face) const {
     return std::ranges::binary_search(ghost_faces, face);

@@ -73,17 +73,19 @@ bool can_write_triangles(const FileName& file) {
 }
 
 void write_triangles(const FileName& output, const SiteTable& table,
-                     const Triangulation& triangulation, const Execution& execution) {
+                     const Triangulation& triangulation, const Execution& execution,
+                     std::vector<std::string>* remarks) {
   const system::Call call(execution);
   io::require_sites(table, triangulation);
   const io::MeshToWrite mesh = {
-      table, triangulation, triangulation.faces(), triangulation.ghost_faces(), {}, execution};
+      table,     triangulation, triangulation.faces(), triangulation.ghost_faces(), {},
+      execution, remarks};
   io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
 }
 
 void write_some_triangles(const FileName& output, const SiteTable& table,
                           const Triangulation& triangulation, std::span<const Index> faces,
-                          const Execution& execution) {
+                          const Execution& execution, std::vector<std::string>* remarks) {
   const system::Call call(execution);
   io::require_sites(table, triangulation);
   std::vector<Triple> corners;
@@ -97,7 +99,7 @@ void write_some_triangles(const FileName& output, const SiteTable& table,
     if (triangulation.is_ghost(faces[i])) ghosts.push_back(static_cast<Index>(i));
     corners.push_back(triangulation.faces()[faces[i]]);
   }
-  const io::MeshToWrite mesh = {table, triangulation, corners, ghosts, faces, execution};
+  const io::MeshToWrite mesh = {table, triangulation, corners, ghosts, faces, execution, remarks};
   io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as", mesh);
 }
 

@@ -221,7 +221,10 @@ TEST(write_triangles, geojson_has_no_geometry_where_corners_round_to_opposites) 
   const Case c = make_case({{0, 1, 0}, {0, -1, 1e-300}, {1, 0, -1}, {-1, 0, -1}});
   ASSERT_EQ(c.triangulation.num_faces(), 4U);
   ASSERT_EQ(c.triangulation.num_ghost_faces(), 0U);
-  write_triangles(path, c.table, c.triangulation);
+  std::vector<std::string> remarks;
+  write_triangles(path, c.table, c.triangulation, {}, &remarks);
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks.front().find("2 of 4 triangles have no geometry: "), 0U);
   const auto features = nlohmann::json::parse(read_all(path)).at("features");
   ASSERT_EQ(features.size(), 4U);
   EXPECT_EQ(std::ranges::count_if(features, [](const auto& f) { return f["geometry"].is_null(); }),
