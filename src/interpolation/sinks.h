@@ -61,7 +61,7 @@ class FieldSums {
       sum += step;
       is_mean &= step == 0;
     }
-    if (!std::isfinite(sum)) return small_sum(f, row) / scale_of_large;
+    if (!std::isfinite(sum)) sum = small_sum(f, row) / scale_of_large;
     if (!is_mean) return sum;
     return settled_mean(sum, [&](const auto& visit) {
       for (const auto& [vertex, weight, slope] : row) visit(weight, values_(f, vertex));
