@@ -25,6 +25,7 @@ from ._second_order import SecondOrderWeights
 from ._types import BoolArray, FloatArray, Progress
 from ._weight_files import netcdf_name
 from ._weights import Weights, require_share
+from ._zarr_weights import ENTRIES, write_between_places
 
 if TYPE_CHECKING:
     from ._places import Places
@@ -506,10 +507,43 @@ class Regridder(Described):
             self._remap.to_netcdf(path)
         else:
             source, target = self._source.side(), self._target.side()
-            method = said_method(self.method, self._extrap_method)
-            norm = _CONSERVATIVE[self.method][1] if self.method in _CONSERVATIVE else "none"
+            method, norm = self._said()
             name, weights = netcdf_name(path, "esmf"), self.weights._weights
             _core.write_weights(name, "esmf", weights, source, target, method, norm)
+
+    def to_zarr(self, path: Path, *, entries_per_chunk: int = ENTRIES) -> None:
+        """Writes the weights as a group of Zarr arrays (version 3), a folder, with ESMF's names.
+
+        `Weights.from_zarr` reads them, and another `Regridder` takes what it reads as `weights`.
+
+        Parameters
+        ----------
+        path : path-like
+            The folder; a name that ends in `.zarr` is usual. The group appears complete or not at
+            all, and replaces one that Rondel made.
+        entries_per_chunk : int, optional
+            As in `Weights.to_zarr`.
+
+        Raises
+        ------
+        ImportError
+            If zarr-python 3 or later is not installed.
+        OSError
+            If the folder cannot be written, or is one that must not be replaced; then nothing is
+            changed.
+
+        """
+        if self._remap is not None:
+            self._remap.to_zarr(path, entries_per_chunk=entries_per_chunk)
+        else:
+            method, norm = self._said()
+            sides = self._source, self._target
+            write_between_places(path, self.weights, sides, method, norm, entries_per_chunk)
+
+    def _said(self) -> tuple[str, str]:
+        """What files say of the method and of the normalization."""
+        norm = _CONSERVATIVE[self.method][1] if self.method in _CONSERVATIVE else "none"
+        return said_method(self.method, self._extrap_method), norm
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:

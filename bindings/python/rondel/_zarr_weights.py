@@ -7,7 +7,8 @@ read from the chunks of its own entries alone, and chunks can be read beside eac
 left of a chunk are entries of the weight 0 at a pair that has an entry, which change no value:
 programs that read `S`, `row` and `col` need not know of chunks.
 
-The functions that take `self` or `cls` are methods of `Weights` and `Remap`.
+The functions that take `self` or `cls` are methods of `Weights` and `Remap`; `Regridder` has one
+that calls the last writer.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from ._ugrid import MAKER
 from ._zarr import chunk_rows, require_zarr
 from ._zarr_folder import replaced
 
-_ENTRIES = 1 << 20  # of a chunk
+ENTRIES = 1 << 20  # of a chunk
 _SIDES = ("a", "b")  # ESMF's letters of sources and targets
 
 
@@ -39,7 +40,7 @@ def weights_to_zarr(
     sites: ArrayLike | None = None,
     targets: ArrayLike | None = None,
     method: str = "",
-    entries_per_chunk: int = _ENTRIES,
+    entries_per_chunk: int = ENTRIES,
 ) -> None:
     """Writes a group of Zarr arrays (version 3), a folder, with ESMF's names.
 
@@ -89,7 +90,7 @@ def weights_to_zarr(
     _write(path, self, arrays, {"map_method": method, "normalization": "none"}, entries_per_chunk)
 
 
-def remap_to_zarr(self: Any, path: Path, *, entries_per_chunk: int = _ENTRIES) -> None:
+def remap_to_zarr(self: Any, path: Path, *, entries_per_chunk: int = ENTRIES) -> None:
     """Writes a group of Zarr arrays (version 3), a folder, with ESMF's names.
 
     The entries are those of `Weights.to_zarr`. Beside them are the centers of the cells of both
@@ -128,6 +129,26 @@ def remap_to_zarr(self: Any, path: Path, *, entries_per_chunk: int = _ENTRIES) -
         if _core.is_grid_name(grid):
             says[f"rondel_grid_{letter}"] = grid
     _write(path, self.weights, arrays, {**says, "order": self._order}, entries_per_chunk)
+
+
+def write_between_places(
+    path: Path,
+    weights: Any,
+    sides: tuple[Any, Any],
+    method: str,
+    norm: str,
+    entries_per_chunk: int,
+) -> None:
+    """Writes the weights of a `Regridder`; `sides` are the `Places` of sources and targets."""
+    arrays: dict[str, Any] = {}
+    for letter, name, places in zip(_SIDES, ("src", "dst"), sides, strict=True):
+        arrays |= _arrays_of_places(letter, places.pairs())
+        mask = places.mask()
+        kept = np.ones(places.lon.size, np.int32) if mask is None else mask.reshape(-1)
+        arrays[f"mask_{letter}"] = kept.astype(np.int32), {"units": "1"}
+        arrays[f"{name}_grid_dims"] = np.array(places.shape[::-1], np.int32), {}
+    says = {"map_method": method, "normalization": norm}
+    _write(path, weights, arrays, says, entries_per_chunk)
 
 
 def _arrays_of_places(letter: str, places: FloatArray) -> dict[str, Any]:

@@ -231,3 +231,33 @@ def test_areas_of_pixels_are_those_of_their_definition(tmp_path):
     assert np.array_equal(rondel.Remap.from_zarr(tmp_path / "w.zarr").target_areas, areas)
     grid = zarr.open_group(tmp_path / "w.zarr", mode="r")["area_a"][:]
     assert np.array_equal(grid, pixels.source_areas)
+
+
+@pytest.mark.parametrize(
+    ("method", "options"),
+    [
+        ("conservative", {}),
+        ("conservative", {"extrap_method": "nearest_s2d"}),
+        ("bilinear", {}),
+        ("nearest_s2d", {"extrap_method": None}),
+    ],
+)
+def test_a_regridder_writes_its_weights(tmp_path, method, options):
+    xarray = pytest.importorskip("xarray")
+    path = tmp_path / "w.zarr"
+    lat, lon = np.arange(-85.0, 90, 10), np.arange(5.0, 360, 10)
+    mask = np.ones((18, 36), np.int32)
+    mask[3:9, 4:20] = 0
+    grid = xarray.Dataset({"mask": (("lat", "lon"), mask)}, {"lat": lat, "lon": lon})
+    regridder = rondel.Regridder(grid, "healpix:2", method, **options)
+    regridder.to_zarr(path, entries_per_chunk=100)
+    weights = rondel.Weights.from_zarr(path)
+    expect_same(weights, regridder.weights)
+    group = zarr.open_group(path, mode="r")
+    assert group["src_grid_dims"][:].tolist() == [36, 18]
+    assert np.array_equal(group["mask_a"][:], mask.reshape(-1))
+    field = np.random.default_rng(3).normal(size=(18, 36))
+    again = rondel.Regridder(grid, "healpix:2", method, weights=weights, **options)
+    assert np.array_equal(again(field), regridder(field), equal_nan=True)
+    with pytest.raises(ValueError, match="other places"):
+        rondel.Regridder(grid.assign_coords(lon=lon + 1), "healpix:2", method, weights=weights)
