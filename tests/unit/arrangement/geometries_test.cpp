@@ -28,6 +28,7 @@
 #include "support/generators.h"
 #include "support/thrown.h"
 #include "unit/arrangement/arc_sets.h"
+#include "unit/arrangement/set_rule.h"
 
 namespace rondel::test::of_geometries {
 namespace {
@@ -96,22 +97,6 @@ struct ExactGeometry {
     });
   }
 };
-
-bool result_of(SetOperation operation, bool a, bool b) {
-  switch (operation) {
-    case SetOperation::unite:
-      return a || b;
-    case SetOperation::intersection:
-      return a && b;
-    case SetOperation::difference:
-      return a && !b;
-    case SetOperation::symmetric_difference:
-      return a != b;
-    case SetOperation::identity:
-      break;
-  }
-  return a;
-}
 
 Ray reduced(const Exact& from) {
   Ray ray = {from[0].get_si(), from[1].get_si(), from[2].get_si()};

@@ -26,6 +26,7 @@
 #include "rondel/regions.h"
 #include "support/generators.h"
 #include "support/thrown.h"
+#include "unit/arrangement/set_rule.h"
 
 namespace rondel::test::of_set_operations {
 namespace {
@@ -83,22 +84,6 @@ bool any_has(const CellRings& cells, const Point& place, const Point& outside) {
     if (has(cells, c, place, outside)) return true;
   }
   return false;
-}
-
-bool result_of(SetOperation operation, bool a, bool b) {
-  switch (operation) {
-    case SetOperation::unite:
-      return a || b;
-    case SetOperation::intersection:
-      return a && b;
-    case SetOperation::difference:
-      return a && !b;
-    case SetOperation::symmetric_difference:
-      return a != b;
-    case SetOperation::identity:
-      break;
-  }
-  return a;
 }
 
 // Checks promise 1: rings are simple, do not cross, and the region is to their left.
