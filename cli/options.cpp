@@ -336,6 +336,13 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
   require_separate_files(read, written);
 }
 
+CLI::Option* add_edges_option(CLI::App& parser, PolygonEdges& target, const std::string& of) {
+  return add_word<PolygonEdges>(parser, "--edges", target, named_values<PolygonEdges>(),
+                                "What joins positions of " + of +
+                                    ": lonlat (default; straight in longitude and\n"
+                                    "latitude, RFC 7946) or geodesic (great circles)");
+}
+
 CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,
                                 const std::string& what) {
   return add_word<InvalidPolygons>(parser, "--invalid", target, named_values<InvalidPolygons>(),
@@ -355,6 +362,18 @@ CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::stri
                             const std::string& what) {
   const auto take = [&file](const std::string& text) { file = standard(text, "/dev/stdin"); };
   return parser.add_option_function<std::string>(name, take, what)->required();
+}
+
+void add_feature_files(CLI::App& parser, CommonOptions& options) {
+  add_input_file(parser, "INPUT", options.input,
+                 "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; or - for\n"
+                 "standard input")
+      ->type_name("");
+  add_polygon_format_option(parser, options);
+  add_output_option(parser, options,
+                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
+                    ".parquet")
+      ->required();
 }
 
 void add_polygon_format_option(CLI::App& parser, CommonOptions& options) {

@@ -132,6 +132,9 @@ void add_table_options(CLI::App& command, CommonOptions& options, const TablesRe
 CLI::Option* add_input_file(CLI::App& parser, const std::string& name, std::string& file,
                             const std::string& what);
 
+/// Adds INPUT, its format and --output of a command that changes features.
+void add_feature_files(CLI::App& parser, CommonOptions& options);
+
 /// Adds --input-format of an INPUT that has polygons.
 void add_polygon_format_option(CLI::App& parser, CommonOptions& options);
 
@@ -196,6 +199,11 @@ CLI::Option* add_word(CLI::App& parser, const std::string& name, Value& target,
       ->check(one_of(keys_of(choices)))
       ->type_name("WORD");
 }
+
+/// Adds --edges.
+/// \param of  whose positions they join
+CLI::Option* add_edges_option(CLI::App& parser, PolygonEdges& target,
+                              const std::string& of = "INPUT");
 
 /// Adds --invalid, the treatment of polygons that are not valid, or of what else is named.
 CLI::Option* add_invalid_option(CLI::App& parser, InvalidPolygons& target,

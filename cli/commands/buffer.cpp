@@ -147,10 +147,7 @@ Command add_buffer_command(CLI::App& tool) {
   add_distances(*parser, *options);
   parser->add_flag("--dissolve", options->is_dissolved,
                    "Write one polygon: the union of all, without properties");
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
-      "What joins positions of INPUT: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  add_edges_option(*parser, options->polygons.edges);
   add_invalid_option(*parser, options->polygons.invalid);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);

@@ -186,10 +186,7 @@ Command add_mesh_cull_command(CLI::App& group) {
                    "Remove the cells that have 1 in this file; the others have 0: .npy,\n"
                    "FILE.nc:NAME, FILE.csv:COLUMN; of NAME(nCells, nRegions) those in any region")
       ->type_name("FILE");
-  CLI::Option* const edges = add_word<PolygonEdges>(
-      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
-      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  CLI::Option* const edges = add_edges_option(*parser, options->polygons.edges, "polygons");
   for (CLI::Option* const option :
        {edges, add_invalid_option(*parser, options->polygons.invalid)}) {
     require_effect(

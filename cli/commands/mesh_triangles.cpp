@@ -236,10 +236,7 @@ void add_domain(CLI::App& parser, MeshTrianglesOptions& options) {
   add("--lines", options.lines,
       "Lines, and sides of polygons, that edges follow; points are nodes; may be\n"
       "repeated");
-  CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.sizes.polygons.edges, named_values<PolygonEdges>(),
-      "What joins positions of these files: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  CLI::Option* const edges = add_edges_option(parser, options.sizes.polygons.edges, "these files");
   for (CLI::Option* const option :
        {edges, add_invalid_option(parser, options.sizes.polygons.invalid)}) {
     require_effect(

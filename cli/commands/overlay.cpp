@@ -197,10 +197,7 @@ Command add_overlay_command(CLI::App& tool) {
   parser->add_flag("--touching", options->has_touching,
                    "Write also the lines and points in which features only meet: where two lines\n"
                    "cross, where a line touches a polygon, and the borders between polygons");
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
-      "What joins positions of the files: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  add_edges_option(*parser, options->read.edges, "the files");
   add_invalid_option(*parser, options->read.invalid);
   parser
       ->add_option("--tolerance", options->tolerance_deg,

@@ -197,10 +197,7 @@ void add_cells(CLI::App& parser, RegridCommandOptions& options) {
       parser, "--sides", cells.sides, named_values<GridSides>(),
       "What cells of grids have in the north and south: parallels (default) or\n"
       "great-circles (ESMF's)");
-  const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", cells.edges, named_values<PolygonEdges>(),
-      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  const CLI::Option* const edges = add_edges_option(parser, cells.edges, "polygons");
   const CLI::Option* const invalid =
       add_invalid_option(parser, cells.invalid, "cells and polygons");
   const CLI::Option* const corners = add_corners_option(parser, cells.corners);

@@ -174,10 +174,7 @@ Command add_relate_command(CLI::App& tool) {
   parser
       ->add_option("--column", options->column, "A property of the features, which rows have, too")
       ->type_name("NAME");
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
-      "What joins positions of the files: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  add_edges_option(*parser, options->read.edges, "the files");
   add_invalid_option(*parser, options->read.invalid);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);

@@ -96,10 +96,7 @@ void add_kinds_of_sides(CLI::App& parser, RemapCommandOptions& options) {
       parser, "--sides", options.cells.sides, named_values<GridSides>(),
       "What cells of grids have in the north and south: parallels (default) or\n"
       "great-circles (ESMF's)");
-  const CLI::Option* const edges = add_word<PolygonEdges>(
-      parser, "--edges", options.cells.edges, named_values<PolygonEdges>(),
-      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+  const CLI::Option* const edges = add_edges_option(parser, options.cells.edges, "polygons");
   const CLI::Option* const invalid =
       add_invalid_option(parser, options.cells.invalid, "cells and polygons");
   const CLI::Option* const corners = add_corners_option(parser, options.cells.corners);

@@ -84,19 +84,8 @@ ExitStatus run_repair(const RepairOptions& options) {
 Command add_repair_command(CLI::App& tool) {
   auto options = std::make_shared<RepairOptions>();
   CLI::App* parser = tool.add_subcommand("repair", "Make polygons valid");
-  add_input_file(*parser, "INPUT", options->common.input,
-                 "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; or - for\n"
-                 "standard input")
-      ->type_name("");
-  add_polygon_format_option(*parser, options->common);
-  add_output_option(*parser, options->common,
-                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
-                    ".parquet")
-      ->required();
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
-      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
-      "RFC 7946) or geodesic (great circles)");
+  add_feature_files(*parser, options->common);
+  add_edges_option(*parser, options->read.edges);
   parser
       ->add_option("--tolerance", options->tolerance_deg,
                    "How far a line of OUTPUT may be from its great circle (default: 0.01)")

@@ -98,15 +98,7 @@ Command add_simplify_command(CLI::App& tool) {
   auto options = std::make_shared<SimplifyCommand>();
   CLI::App* parser =
       tool.add_subcommand("simplify", "Remove corners of lines and polygons within a distance");
-  add_input_file(*parser, "INPUT", options->common.input,
-                 "The features: .geojson, with GDAL installed .gpkg .fgb .shp .parquet; or - for\n"
-                 "standard input")
-      ->type_name("");
-  add_polygon_format_option(*parser, options->common);
-  add_output_option(*parser, options->common,
-                    "Where to write the features: .geojson; with GDAL installed .gpkg .fgb\n"
-                    ".parquet")
-      ->required();
+  add_feature_files(*parser, options->common);
   parser
       ->add_option("--tolerance", options->tolerance_km,
                    "How far lines of OUTPUT may be from those of INPUT that they replace")
@@ -123,10 +115,7 @@ Command add_simplify_command(CLI::App& tool) {
                    "three corners)");
   parser->add_flag("--keep-boundary", options->simplify.keep_boundary,
                    "Keep the corners that are on a ring of one polygon alone");
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->polygons.edges, named_values<PolygonEdges>(),
-      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
-      "RFC 7946) or geodesic (great circles)");
+  add_edges_option(*parser, options->polygons.edges);
   add_invalid_option(*parser, options->polygons.invalid);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);

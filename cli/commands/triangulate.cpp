@@ -303,10 +303,7 @@ Command add_triangulate_command(CLI::App& tool) {
                    "Make a site where constraints cross, which is an error otherwise");
   CLI::Option* inside =
       parser->add_flag("--inside", options->is_inside, "Write the faces in polygons alone");
-  CLI::Option* edges = add_word<PolygonEdges>(
-      *parser, "--edges", options->read.edges, named_values<PolygonEdges>(),
-      "What joins positions of INPUT: lonlat (default; straight in longitude and latitude,\n"
-      "RFC 7946) or geodesic (great circles)");
+  CLI::Option* edges = add_edges_option(*parser, options->read.edges);
   CLI::Option* invalid = add_invalid_option(*parser, options->read.invalid);
   for (const char* name : {"--delimiter", "--lon", "--lat", "--x", "--y", "--z", "--radians"}) {
     require_effect(options->common, parser->get_option(name), has_table, "without --constraints");
