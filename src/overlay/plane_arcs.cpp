@@ -148,10 +148,15 @@ double lat_on(const LinePiece& piece, double lon_deg) {
                     std::max(piece.west.lat_deg, piece.east.lat_deg));
 }
 
-// Returns a number that is at least bulge_deg() and takes less work.
+// Returns a number that is at least bulge_deg() and takes less work: with c as the distance of `far`
+// from its pole, its tangent is below 1 / c, and its cosine at least 2 / pi times c.
 double simple_bulge_deg(const LonLat& west, const LonLat& east) {
+  constexpr double above_rounding = 1 + 1e-9;
   const double width = east.lon_deg - west.lon_deg;
-  return width * width * (rad_per_deg / 8) + 2 * std::abs(east.lat_deg - west.lat_deg);
+  const double height = std::abs(east.lat_deg - west.lat_deg);
+  const double from_pole = 90 - std::max(std::abs(west.lat_deg), std::abs(east.lat_deg));
+  const double slope = 0.63 * from_pole > height ? height * height / (4 * from_pole) : height;
+  return (width * width * (rad_per_deg / 8) + 2 * slope) * above_rounding;
 }
 
 // Finds the corners on a piece of a meridian, from south to north.
