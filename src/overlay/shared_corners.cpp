@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "overlay/feature_polygons.h"
@@ -29,7 +30,9 @@ class TurnedPositions {
  public:
   // Takes a position that is a turn away, and passes by others.
   void add(const LonLat& p) {
-    if (std::abs(p.lon_deg) > 180) turned_.push_back({p.lat_deg, reduced(p), std::abs(p.lon_deg)});
+    if (std::abs(p.lon_deg) <= 180) return;
+    turned_.push_back({p.lat_deg, reduced(p), std::abs(p.lon_deg)});
+    nearest_ = std::min(nearest_, std::abs(turned_.back()[1]) - 3 * on_side_deg);
   }
   // Ends the additions.
   void sort() {
@@ -39,11 +42,12 @@ class TurnedPositions {
   [[nodiscard]] bool is_empty() const { return turned_.empty(); }
 
   // Moves positions to the coarsest ones that are the same place up to rounding. These are
-  // representable on every turn nearer to the map. Returns true if any has moved.
-  bool move(std::vector<LonLat>& positions) const {
-    bool has_moved = false;
+  // representable on every turn nearer to the map. Returns the positions before if any has moved.
+  [[nodiscard]] std::optional<std::vector<LonLat>> move(std::vector<LonLat>& positions) const {
+    std::optional<std::vector<LonLat>> before;
     for (LonLat& p : positions) {
       const double lon = reduced(p);
+      if (std::abs(lon) < nearest_) continue;
       Turned best = {p.lat_deg, lon, std::abs(p.lon_deg)};
       const auto first =
           std::ranges::lower_bound(turned_, Turned{p.lat_deg, lon - 2 * on_side_deg, 0});
@@ -52,10 +56,10 @@ class TurnedPositions {
         if ((*q)[2] > best[2]) best = *q;
       }
       if (best[1] == lon) continue;
+      if (!before) before = positions;
       p.lon_deg = best[1] + (p.lon_deg - lon);
-      has_moved = true;
     }
-    return has_moved;
+    return before;
   }
 
  private:
@@ -68,6 +72,7 @@ class TurnedPositions {
   }
 
   std::vector<Turned> turned_;
+  double nearest_ = 180;  // no turned position is as near to longitude 0 as this
 };
 
 // Finds the corners on a side.
@@ -174,10 +179,8 @@ void share_rounding(map::PolygonFeatures& features) {
   if (turned.is_empty()) return;
   turned.sort();
   visit_positions(features, [&](std::vector<LonLat>& positions, map::LonLatRing* ring) {
-    std::vector<LonLat> before = positions;
-    if (turned.move(positions) && ring != nullptr && is_thin(before)) {
-      ring->thin_positions = std::move(before);
-    }
+    std::optional<std::vector<LonLat>> before = turned.move(positions);
+    if (before && ring != nullptr && is_thin(*before)) ring->thin_positions = std::move(*before);
   });
 }
 
