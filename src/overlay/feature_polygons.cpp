@@ -160,10 +160,14 @@ class FeatureCells {
              : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
   }
   // True if the only feature has geodesic sides and is valid at first sight, so that check() finds
-  // no fault.
-  [[nodiscard]] bool is_plain() const {
-    return options_.edges == PolygonEdges::geodesic && features_.lines.front().empty() &&
-           is_plainly_valid(features_.rings.front(), quiet());
+  // no fault. What check() keeps is kept if it is needed.
+  [[nodiscard]] bool is_plain(CheckedFeature& checked, bool needs_cell) const {
+    const bool has_arcs_alone =
+        options_.edges == PolygonEdges::geodesic && features_.lines.front().empty();
+    if (!has_arcs_alone) return false;
+    if (!needs_cell) return is_plainly_valid(features_.rings.front(), quiet());
+    checked.cell = plain_cell(features_.rings.front(), quiet());
+    return checked.cell.has_value();
   }
   // Throws FeatureFault if the only feature is not valid. Straight lines need not become arcs for
   // that, unless parts of the feature are 360 degrees apart. What is found is kept.
@@ -630,7 +634,7 @@ std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& feature
     }
     try {
       FeatureCells of_one(one, alone, {}, one_thread);
-      if (needs_cells || !of_one.is_plain()) of_one.check(checked[f]);
+      if (!of_one.is_plain(checked[f], needs_cells)) of_one.check(checked[f]);
     } catch (const FeatureFault& fault) {
       checked[f].fault = fault.fault();
     }

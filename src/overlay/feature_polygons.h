@@ -143,13 +143,23 @@ class FeatureFault : public FileError {
 //    polygon, for parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
 
-// Returns the corners of a ring, oriented with the inside of its polygon to the left, so that a
-// shell is around its smaller side.
-std::vector<Point> geodesic_ring(const map::LonLatRing& ring);
+// A ring of arcs, and the positions of its corners.
+struct GeodesicRing {
+  std::vector<LonLat> positions;
+  std::vector<Point> corners;
+};
+
+// Returns a ring oriented with the inside of its polygon to the left, so that a shell is around its
+// smaller side.
+GeodesicRing geodesic_ring(const map::LonLatRing& ring);
 
 // True if a feature with geodesic sides is valid at first sight: its rings touch neither each other
 // nor themselves, and agree on what is inside. False says nothing.
 bool is_plainly_valid(std::span<const map::LonLatRing> rings, const Execution& execution);
+
+// Returns the cell of such a feature, as geodesic_cells() does; or nothing, which says nothing.
+std::optional<CellRings> plain_cell(std::span<const map::LonLatRing> rings,
+                                    const Execution& execution);
 
 // Throws FileError if a hole of the feature is outside of its polygon or in another hole.
 void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,

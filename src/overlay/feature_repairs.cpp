@@ -154,7 +154,8 @@ CellRings repaired_geodesic_feature(std::span<const map::LonLatRing> rings,
   std::vector<std::optional<arrangement::KnownPlace>> known;
   std::vector<Point> corners;  // of a polygon
   for (std::size_t r = 0; r < rings.size(); ++r) {
-    for (const Point& corner : geodesic_ring(rings[r])) {
+    const GeodesicRing ring = geodesic_ring(rings[r]);
+    for (const Point& corner : ring.corners) {
       polygons.corners.push_back(static_cast<Index>(polygons.points.size()));
       polygons.points.push_back(corner);
       corners.push_back(corner);

@@ -195,7 +195,7 @@ class GeodesicCells {
   // Appends the arcs of a ring.
   void append(std::size_t feature, Index ring) {
     const std::vector<map::LonLatRing>& rings = features_.rings[feature];
-    const std::vector<Point> corners = geodesic_ring(rings[ring]);
+    const std::vector<Point> corners = geodesic_ring(rings[ring]).corners;
     if (corners.size() > 2) {
       const double area = std::abs(map::area_on_left(corners));
       areas_[feature] += rings[ring].is_hole ? -area : area;
@@ -223,9 +223,9 @@ CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& 
   return GeodesicCells(features, execution)();
 }
 
-std::vector<Point> geodesic_ring(const map::LonLatRing& ring) {
-  std::vector<LonLat> positions;  // those of the corners
-  std::vector<Point> corners;
+GeodesicRing geodesic_ring(const map::LonLatRing& ring) {
+  GeodesicRing made;
+  auto& [positions, corners] = made;
   positions.reserve(ring.positions.size());
   corners.reserve(ring.positions.size());
   for (const LonLat& position : ring.positions) {
@@ -239,9 +239,10 @@ std::vector<Point> geodesic_ring(const map::LonLatRing& ring) {
     corners.pop_back();
   }
   if (!corners.empty() && goes_clockwise(positions, corners) != ring.is_hole) {
+    std::ranges::reverse(positions);
     std::ranges::reverse(corners);
   }
-  return corners;
+  return made;
 }
 
 void refuse_geodesic_holes(const map::PolygonFeatures& features, std::size_t feature,
