@@ -45,7 +45,7 @@ class PolygonFlood {
         nets_(faces_.size()) {
     list_edges();
     list_faces();
-    list_chains(constraints);
+    if (!list_whole_edges(constraints)) list_chains(constraints);
   }
 
   // Returns the faces in a polygon, ascending, until the next call.
@@ -55,13 +55,14 @@ class PolygonFlood {
   [[nodiscard]] Index edge_of(const SideOfFace& side) const;
   void list_edges();
   void list_faces();
+  [[nodiscard]] bool list_whole_edges(std::span<const Ends> constraints);
   void list_chains(std::span<const Ends> constraints);
   [[nodiscard]] Index name_of(Index site) const;
   [[nodiscard]] bool append_chain(std::span<const Index> edges, const Ends& ends);
   void visit(Index face);
   template <class Work>
   void for_edges(std::span<const Index> sides, std::size_t polygon, const Work& work) const;
-  void require_rings(std::span<const Index> sides, std::size_t polygon);
+  void take_sides(std::span<const Index> sides, std::size_t polygon);
   [[nodiscard]] bool is_covered_from(std::span<const Index> sides, std::size_t polygon);
   [[nodiscard]] bool spread(bool& is_closed);
   void sort_reached();
@@ -96,10 +97,14 @@ class PolygonFlood {
 Index PolygonFlood::edge_of(const SideOfFace& side) const {
   const Triple& face = faces_[side.face];
   const auto [low, high] = std::minmax({face[(side.corner + 1) % 3], face[(side.corner + 2) % 3]});
-  const auto begin = result_.edges.begin();
-  const auto found = std::lower_bound(begin + first_edges_[low],
-                                      begin + first_edges_[low + std::size_t{1}], Ends{low, high});
-  return static_cast<Index>(found - begin);
+  constexpr Index few = 8;
+  Index edge = first_edges_[low];
+  if (const Index end = first_edges_[low + std::size_t{1}]; end - edge > few) {
+    const auto begin = result_.edges.begin();
+    return static_cast<Index>(std::lower_bound(begin + edge, begin + end, Ends{low, high}) - begin);
+  }
+  while (result_.edges[edge][1] != high) ++edge;
+  return edge;
 }
 
 void PolygonFlood::list_edges() {
@@ -129,6 +134,32 @@ Index PolygonFlood::name_of(Index site) const {
   const auto duplicates = result_.triangulation.duplicates();
   const auto found = std::ranges::lower_bound(duplicates, site, {}, &Duplicate::site);
   return found != duplicates.end() && found->site == site ? found->representative : site;
+}
+
+// Lists the chains where each constraint is one edge and sites are in different places. Returns false
+// elsewhere.
+bool PolygonFlood::list_whole_edges(std::span<const Ends> constraints) {
+  if (!result_.triangulation.duplicates().empty()) return false;
+  std::vector<Index> edges(constraints.size(), no_index);
+  for (Index e = 0; e < result_.edges.size(); ++e) {
+    for (const Index constraint : result_.sources[e]) {
+      if (constraint >= constraints.size()) continue;
+      if (edges[constraint] != no_index) return false;
+      edges[constraint] = e;
+    }
+  }
+  const auto is_edge = [&](Index edge, const Ends& ends) {
+    return edge != no_index &&
+           result_.edges[edge] == Ends{std::min(ends[0], ends[1]), std::max(ends[0], ends[1])};
+  };
+  if (!std::ranges::equal(edges, constraints, is_edge)) return false;
+  chains_.values.reserve(edges.size());
+  chains_.offsets.reserve(edges.size() + 1);
+  for (Index c = 0; c < constraints.size(); ++c) {
+    chains_.values.push_back({edges[c], constraints[c][0] < constraints[c][1]});
+    chains_.end_row();
+  }
+  return true;
 }
 
 // The edges of a constraint are a path, which is followed from its first end.
@@ -206,8 +237,9 @@ void PolygonFlood::for_edges(std::span<const Index> sides, std::size_t polygon,
   }
 }
 
-// Throws InvalidInput unless as many sides begin at each site as end there.
-void PolygonFlood::require_rings(std::span<const Index> sides, std::size_t polygon) {
+// Takes the sides of a polygon as those that divide faces. Throws InvalidInput unless as many of them
+// begin at each site as end there.
+void PolygonFlood::take_sides(std::span<const Index> sides, std::size_t polygon) {
   std::size_t num_unbalanced = 0;
   const auto change = [&](Index site, int step) {
     num_unbalanced += balance_[site] == 0 ? 1U : 0U;
@@ -216,8 +248,10 @@ void PolygonFlood::require_rings(std::span<const Index> sides, std::size_t polyg
   };
   for_edges(sides, polygon, [&](const DirectedEdge& e) {
     const auto& [low, high] = result_.edges[e.edge];
-    change(low, e.is_ascending ? 1 : -1);
-    change(high, e.is_ascending ? -1 : 1);
+    const int step = e.is_ascending ? 1 : -1;
+    net_[e.edge] += step;
+    change(low, step);
+    change(high, -step);
   });
   if (num_unbalanced == 0) return;
   throw InvalidInput("polygon " + std::to_string(polygon) + " has sides that close no ring",
@@ -287,10 +321,8 @@ void PolygonFlood::sort_reached() {
 
 std::span<const Index> PolygonFlood::faces_in(std::span<const Index> sides, std::size_t polygon) {
   reached_.clear();
-  require_rings(sides, polygon);
+  take_sides(sides, polygon);
   bool is_closed = true;
-  for_edges(sides, polygon,
-            [&](const DirectedEdge& e) { net_[e.edge] += e.is_ascending ? 1 : -1; });
   bool is_covered = is_covered_from(sides, polygon);
   is_covered = spread(is_closed) && is_covered;
   for_edges(sides, polygon, [&](const DirectedEdge& e) {
