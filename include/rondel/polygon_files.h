@@ -116,6 +116,13 @@ RONDEL_API CellTable cells_of_polygons(const LonLatMultiPolygons& features,
                                        const PolygonOptions& options = {},
                                        const Execution& execution = {});
 
+/// Returns the cells of cells_of_polygons() alone. That takes less time where features are repaired,
+/// since nobody is told what was wrong with them.
+/// \throws InvalidInput as cells_of_polygons() does
+RONDEL_API CellRings rings_of_polygons(const LonLatMultiPolygons& features,
+                                       const PolygonOptions& options = {},
+                                       const Execution& execution = {});
+
 /// Finds out which polygons are not valid, by the rules of read_polygons(). The text of feature i is
 /// what is wrong with it, as read_polygons() would say, and empty if it is valid.
 /// \throws FileError for what cannot be read

@@ -226,6 +226,14 @@ CellTable cells_of_polygons(const LonLatMultiPolygons& features, const PolygonOp
   return formats::in_memory([&] { return formats::table_of(converted, options, execution); });
 }
 
+CellRings rings_of_polygons(const LonLatMultiPolygons& features, const PolygonOptions& options,
+                            const Execution& execution) {
+  const system::Call call(execution);
+  map::PolygonFeatures converted = formats::features_of(features, options);
+  return formats::in_memory(
+      [&] { return overlay::cells_of_features(converted, options, execution); });
+}
+
 std::vector<std::string> polygon_faults(const LonLatMultiPolygons& features,
                                         const PolygonOptions& options, const Execution& execution) {
   const system::Call call(execution);

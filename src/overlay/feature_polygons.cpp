@@ -124,11 +124,13 @@ bool are_same(std::span<const map::LonLatRing> rings, std::span<const map::LonLa
 class FeatureCells {
  public:
   FeatureCells(map::PolygonFeatures& features, const PolygonOptions& options,
-               std::span<const CheckedFeature> checked, const Execution& execution)
+               std::span<const CheckedFeature> checked, const Execution& execution,
+               FaultTexts texts = FaultTexts::full)
       : features_(features),
         options_(options),
         checked_(checked),
         execution_(execution),
+        texts_(texts),
         facts_(features.files.size()) {}
 
   // Returns the cells of all features, with overlaps treated as the options say. Throws FileError.
@@ -378,7 +380,7 @@ class FeatureCells {
   CellRings all_geodesic_cells() {
     const std::vector<std::vector<map::LonLatRing>> faulty = faulty_rings();
     lines_ = geodesic_lines(features_);
-    if (checked_.empty()) return geodesic_cells(features_, quiet());
+    if (checked_.empty()) return geodesic_cells(features_, quiet(), texts_);
     std::size_t num_points = 0;
     for (const CheckedFeature& feature : checked_) {
       if (feature.cell) num_points += feature.cell->points.size();
@@ -610,6 +612,7 @@ class FeatureCells {
   const PolygonOptions& options_;
   std::span<const CheckedFeature> checked_;  // of each feature, or none
   const Execution& execution_;
+  FaultTexts texts_;
   CompressedRows<PlaneSide> sides_;
   FeatureLines lines_;
   std::vector<CellFacts> facts_;  // of each file: the remarks
@@ -619,7 +622,7 @@ class FeatureCells {
 // at first sight gets none.
 std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& features,
                                              const PolygonOptions& options, bool needs_cells,
-                                             const Execution& execution) {
+                                             FaultTexts texts, const Execution& execution) {
   std::vector<CheckedFeature> checked(features.rings.size());
   const PolygonOptions alone{.edges = options.edges, .tolerance_deg = options.tolerance_deg};
   const Execution one_thread{.threads = 1, .stop = execution.stop};
@@ -633,7 +636,7 @@ std::vector<CheckedFeature> checked_features(const map::PolygonFeatures& feature
       if (!checked[f].fault.empty()) return;
     }
     try {
-      FeatureCells of_one(one, alone, {}, one_thread);
+      FeatureCells of_one(one, alone, {}, one_thread, texts);
       if (!of_one.is_plain(checked[f], needs_cells)) of_one.check(checked[f]);
     } catch (const FeatureFault& fault) {
       checked[f].fault = fault.fault();
@@ -670,7 +673,7 @@ void divide_faults(std::vector<std::string> faults, const map::PolygonFeatures& 
 
 // Converts features, and repairs them if that is wanted.
 ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOptions& options,
-                               const Execution& execution) {
+                               FaultTexts texts, const Execution& execution) {
   const auto converted = [&](std::span<const CheckedFeature> checked) {
     FeatureCells make(features, options, checked, execution);
     CellRings cells = make();
@@ -679,7 +682,7 @@ ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOpti
   };
   features.lines.resize(features.rings.size());
   if (options.invalid == InvalidPolygons::error) return converted({});
-  std::vector<CheckedFeature> checked = checked_features(features, options, true, execution);
+  std::vector<CheckedFeature> checked = checked_features(features, options, true, texts, execution);
   const auto given = std::pair(features.rings, features.lines);
   for (;;) {
     // A feature that is valid alone may become invalid by corners of others on its sides.
@@ -688,9 +691,11 @@ ConvertedFeatures with_repairs(map::PolygonFeatures& features, const PolygonOpti
       divide_faults(taken_faults(checked), features, result.facts);
       return result;
     } catch (const FeatureFault& fault) {
-      if (!checked[fault.feature()].fault.empty()) throw;
-      checked[fault.feature()].fault = fault.fault();
+      const bool is_told = !checked[fault.feature()].fault.empty();  // that it cannot be repaired
+      if (is_told && texts == FaultTexts::full) throw;
       std::tie(features.rings, features.lines) = given;
+      if (is_told) return with_repairs(features, options, FaultTexts::full, execution);
+      checked[fault.feature()].fault = fault.fault();
     }
   }
 }
@@ -702,15 +707,21 @@ ConvertedFeatures converted_features(map::PolygonFeatures& features, const Polyg
   // Conversion divides sides, and tells some to go the shorter way.
   std::vector<LongSide> sides;
   if (options.edges == PolygonEdges::lonlat) sides = long_sides(features);
-  ConvertedFeatures result = with_repairs(features, options, execution);
+  ConvertedFeatures result = with_repairs(features, options, FaultTexts::full, execution);
   tell_of_long_sides(sides, features, result.facts);
   return result;
+}
+
+CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
+                            const Execution& execution) {
+  return with_repairs(features, options, FaultTexts::brief, execution).cells;
 }
 
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
                                             const PolygonOptions& options,
                                             const Execution& execution) {
-  std::vector<CheckedFeature> checked = checked_features(features, options, false, execution);
+  std::vector<CheckedFeature> checked =
+      checked_features(features, options, false, FaultTexts::full, execution);
   return taken_faults(checked);
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,17 @@ struct ConvertedFeatures {
 // not tell which way they go, unless they are to be repaired.
 ConvertedFeatures converted_features(map::PolygonFeatures& features, const PolygonOptions& options,
                                      const Execution& execution);
+
+// Whether someone reads what is wrong with features that are repaired. It may take as long to find as
+// the repair.
+enum class FaultTexts : std::uint8_t {
+  full,
+  brief,  // a fault is known to be there, and not always where
+};
+
+// Returns the cells of converted_features() alone, or throws as that does.
+CellRings cells_of_features(map::PolygonFeatures& features, const PolygonOptions& options,
+                            const Execution& execution);
 
 // Returns for each feature what is wrong with it, or an empty text.
 std::vector<std::string> faults_of_features(const map::PolygonFeatures& features,
@@ -141,7 +153,8 @@ class FeatureFault : public FileError {
 //    cover the sphere is in `whole`.
 // 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
 //    polygon, for parts that overlap, and for sides of a feature that cross.
-CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution);
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution,
+                         FaultTexts texts = FaultTexts::full);
 
 // A ring of arcs, and the positions of its corners.
 struct GeodesicRing {

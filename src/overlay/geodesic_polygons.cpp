@@ -83,8 +83,11 @@ bool goes_clockwise(const std::vector<LonLat>& positions, const std::vector<Poin
 // Converts all features.
 class GeodesicCells {
  public:
-  GeodesicCells(const map::PolygonFeatures& features, const Execution& execution)
-      : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
+  GeodesicCells(const map::PolygonFeatures& features, const Execution& execution, FaultTexts texts)
+      : features_(features),
+        execution_(execution),
+        texts_(texts),
+        areas_(features.rings.size(), 0) {}
 
   // Returns the cells of all features. Throws FileError.
   CellRings operator()() {
@@ -173,6 +176,8 @@ class GeodesicCells {
 
   // Throws FileError with two parts of a feature that overlap.
   [[noreturn]] void refuse_overlap(const CellRings& given, std::size_t feature) const {
+    constexpr const char* brief = "parts of it overlap";
+    if (texts_ == FaultTexts::brief) refuse_feature(features_, feature, brief);
     CellRings parts;
     parts.points = given.points;
     for (std::uint64_t r = given.cells[feature]; r < given.cells[feature + 1]; ++r) {
@@ -189,7 +194,7 @@ class GeodesicCells {
                           : first + " and part " + std::to_string(pair.second) + " overlap at ") +
                          text_of_place(pair.place));
     }
-    refuse_feature(features_, feature, "parts of it overlap");
+    refuse_feature(features_, feature, brief);
   }
 
   // Appends the arcs of a ring.
@@ -213,14 +218,16 @@ class GeodesicCells {
 
   const map::PolygonFeatures& features_;
   const Execution& execution_;
+  FaultTexts texts_;
   std::vector<KeyedArc> arcs_;
   std::vector<double> areas_;  // of each feature: the sum over its rings, without holes
 };
 
 }  // namespace
 
-CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution) {
-  return GeodesicCells(features, execution)();
+CellRings geodesic_cells(const map::PolygonFeatures& features, const Execution& execution,
+                         FaultTexts texts) {
+  return GeodesicCells(features, execution, texts)();
 }
 
 GeodesicRing geodesic_ring(const map::LonLatRing& ring) {

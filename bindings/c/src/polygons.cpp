@@ -221,9 +221,8 @@ rondel_status rondel_polygons_of_features(const rondel_features* features,
                                           rondel_polygons** made) {
   return rc::make_handle(made, [&] {
     rc::require(features, "features");
-    rondel::CellTable table = rondel::cells_of_polygons(features->features, rc::reading_of(reading),
-                                                        rc::execution_of(execution));
-    return std::make_unique<rondel_polygons>(std::move(table.cells));
+    return std::make_unique<rondel_polygons>(rondel::rings_of_polygons(
+        features->features, rc::reading_of(reading), rc::execution_of(execution)));
   });
 }
 
