@@ -57,10 +57,11 @@ class PlaneCorners {
 
   // Calls visit(position, owner) for the corners near a line that leads east or along a meridian:
   // all whose distances in longitude and in latitude are below these margins, and possibly others.
-  // Positions are shifted to the line's own turn of the globe.
+  // Positions are shifted to the line's own turn of the globe. Corners of one owner alone may be left
+  // out where they are not shifted and not at the end of the map.
   template <class Visit>
-  void visit_near(const LonLat& west, const LonLat& east, const LonLat& margins,
-                  const Visit& visit) const {
+  void visit_near(const LonLat& west, const LonLat& east, const LonLat& margins, const Visit& visit,
+                  Index left_out = no_index) const {
     const double margin_deg = margins.lat_deg;
     const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
     const double lowest = south - margin_deg - 1e-9;
@@ -83,10 +84,12 @@ class PlaneCorners {
         low = std::max(low, std::min(at_floor, at_ceiling) - 1e-9);
         high = std::min(high, std::max(at_floor, at_ceiling) + 1e-9);
       }
-      visit_band(band, low - margins.lon_deg, high + margins.lon_deg,
-                 [&](const LonLat& p, Index owner) {
-                   if (p.lat_deg >= lowest && p.lat_deg <= highest) visit(p, owner);
-                 });
+      visit_band(
+          band, low - margins.lon_deg, high + margins.lon_deg,
+          [&](const LonLat& p, Index owner) {
+            if (p.lat_deg >= lowest && p.lat_deg <= highest) visit(p, owner);
+          },
+          left_out);
     }
   }
 
@@ -96,6 +99,7 @@ class PlaneCorners {
   // Sorts the corners of each part, whose offsets are given, and unites those in one position.
   void unite_equal(std::vector<Index> offsets) {
     begins_ = std::move(offsets);
+    owners_.assign(begins_.size() - 1, no_index);
     std::size_t kept = 0;
     for (std::size_t part = 0, from = 0; part + 1 < begins_.size(); ++part) {
       const std::size_t end = begins_[part + 1];
@@ -110,6 +114,13 @@ class PlaneCorners {
           corners_[kept++] = corner;
         }
       }
+      if (kept == first) continue;
+      const Index owner = corners_[first].owner;
+      const bool is_shared =
+          std::any_of(corners_.begin() + static_cast<std::ptrdiff_t>(first),
+                      corners_.begin() + static_cast<std::ptrdiff_t>(kept),
+                      [&](const OwnedCorner& corner) { return corner.owner != owner; });
+      owners_[part] = is_shared ? no_index : owner;
     }
     begins_.back() = static_cast<Index>(kept);
     corners_.resize(kept);
@@ -147,15 +158,29 @@ class PlaneCorners {
     return static_cast<std::size_t>(std::clamp(std::floor(lat_deg + 90), 0.0, 179.0));
   }
 
+  // True if some parts have no corners but those of an owner.
+  [[nodiscard]] bool are_of(Index owner, std::size_t first, std::size_t last) const {
+    while (first <= last && (owners_[first] == owner || begins_[first] == begins_[first + 1])) {
+      ++first;
+    }
+    return first > last;
+  }
+
   template <class Visit>
-  void visit_band(std::size_t number, double low, double high, const Visit& visit) const {
+  void visit_band(std::size_t number, double low, double high, const Visit& visit,
+                  Index left_out) const {
     const std::span<const Index> parts = std::span(begins_).subspan(number * parts_, parts_ + 1);
     const OwnedCorner* const end = corners_.data() + parts.back();
     // Stored longitudes are at least -180 and below 180.
     const double first_turn = 360 * std::floor((low + 180) / 360);
     for (double turn = first_turn; turn - 180 <= high; turn += 360) {
       const double first = low - turn;
-      const OwnedCorner* corner = corners_.data() + parts[part_of(std::max(first, -180.0))];
+      const std::size_t first_part = part_of(std::max(first, -180.0));
+      if (left_out != no_index && turn == 0 && first_part > 0 &&
+          are_of(left_out, number * parts_ + first_part, number * parts_ + part_of(high))) {
+        continue;
+      }
+      const OwnedCorner* corner = corners_.data() + parts[first_part];
       while (corner != end && corner->position.lon_deg < first) ++corner;
       for (; corner != end && corner->position.lon_deg + turn <= high; ++corner) {
         visit(LonLat{corner->position.lon_deg + turn, corner->position.lat_deg}, corner->owner);
@@ -166,6 +191,7 @@ class PlaneCorners {
   std::vector<OwnedCorner> corners_;  // band by band
   std::size_t parts_ = 1;             // of each band
   std::vector<Index> begins_;         // of each part, band by band, and the end of the last one
+  std::vector<Index> owners_;         // of all corners of a part, or no_index
 };
 
 }  // namespace rondel::overlay

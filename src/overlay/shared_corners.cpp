@@ -112,7 +112,7 @@ class SideCorners {
     const double up = east.lat_deg - west.lat_deg;
     const double squared = along * along + up * up;
     const double most = on_side_deg * std::sqrt(squared);
-    corners_.visit_near(west, east, {on_side_deg, on_side_deg}, [&](const LonLat& p, Index owner) {
+    const auto take = [&](const LonLat& p, Index owner) {
       // A feature's own corners were judged by exact signs already, except for those shifted by 360
       // degrees, which are rounded.
       if (owner == feature_ && is_own(p)) return;
@@ -122,11 +122,13 @@ class SideCorners {
       if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
       if (is_one_place(p, from) || is_one_place(p, to)) return;
       found_.emplace_back(goes_east ? part : 1 - part, p);
-    });
+    };
+    corners_.visit_near(west, east, {on_side_deg, on_side_deg}, take, feature_);
+    positions_.clear();
+    if (found_.empty()) return positions_;
     std::ranges::sort(found_, [](const auto& p, const auto& q) {
       return p.first != q.first ? p.first < q.first : is_west_of(p.second, q.second);
     });
-    positions_.clear();
     for (const auto& [part, position] : found_) {
       if (positions_.empty() || !is_one_place(positions_.back(), position))
         positions_.push_back(position);
