@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -54,12 +55,18 @@ class LineDivider {
   void append_between(const LonLat& from, const Point& p, const LonLat& to, const Point& q,
                       unsigned depth) const {
     constexpr unsigned max_halvings = 30;
-    const LonLat middle = middle_of(from, to);
-    if (depth == max_halvings || is_straight(from, p, to, q, middle)) {
+    const std::optional<bool> known =
+        depth == max_halvings ? true : is_straight_by_ends(from, p, to, q);
+    if (known && *known) {
       positions_.push_back(from);
       return;
     }
+    const LonLat middle = middle_of(from, to);
     const Point m = unit_vector(middle);
+    if (!known && is_straight(from, p, to, q, middle, m)) {
+      positions_.push_back(from);
+      return;
+    }
     append_between(from, p, middle, m, depth + 1);
     append_between(middle, m, to, q, depth + 1);
   }
@@ -86,26 +93,32 @@ class LineDivider {
     return 1.01 * 1.01 * squared <= 0.81 * squared_tolerance_;
   }
 
-  [[nodiscard]] bool is_straight(const LonLat& from, const Point& p, const LonLat& to,
-                                 const Point& q, const LonLat& middle) const {
+  // Returns whether a line needs no division, where that takes no look at its middle.
+  static std::optional<bool> is_straight_by_ends(const LonLat& from, const Point& p,
+                                                 const LonLat& to, const Point& q) {
     constexpr double max_degrees = 90;
     if (p == q && std::abs(from.lat_deg) == 90) return true;
     if (std::abs(to.lon_deg - from.lon_deg) > max_degrees ||
         std::abs(to.lat_deg - from.lat_deg) > max_degrees)
       return false;
     if (from.lon_deg == to.lon_deg) return true;
+    return std::nullopt;
+  }
+  // Returns whether the arc is near to other lines in their middle, which is `on_line`.
+  [[nodiscard]] bool is_straight(const LonLat& from, const Point& p, const LonLat& to,
+                                 const Point& q, const LonLat& middle, const Point& on_line) const {
     const Point m = normalized(p + q);
-    if (!is_near(m, middle)) return false;
+    if (!is_near(m, on_line)) return false;
     // On one side of the equator an arc bends to one side and is farthest from the line near the
     // middle. Across the equator it bends to both sides and may meet the line in the middle.
     if (!(from.lat_deg * to.lat_deg < 0)) return true;
-    return is_near(normalized(p + m), middle_of(from, middle)) &&
-           is_near(normalized(m + q), middle_of(middle, to));
+    return is_near(normalized(p + m), unit_vector(middle_of(from, middle))) &&
+           is_near(normalized(m + q), unit_vector(middle_of(middle, to)));
   }
 
-  // True if a point of an arc is within the tolerance of a position on the line.
-  [[nodiscard]] bool is_near(const Point& of_arc, const LonLat& of_line) const {
-    const Point off = of_arc - unit_vector(of_line);
+  // True if a point of an arc is within the tolerance of a point of the line.
+  [[nodiscard]] bool is_near(const Point& of_arc, const Point& of_line) const {
+    const Point off = of_arc - of_line;
     return dot(off, off) <= squared_tolerance_;
   }
 
@@ -269,7 +282,8 @@ void append_divided(const LonLat& from, const LonLat& to, double tolerance,
   LineDivider(tolerance, positions).append(from, to);
 }
 
-SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads)
+SideDivider::SideDivider(std::span<const PlaneSide> sides, std::size_t num_closed, double tolerance,
+                         unsigned threads)
     : sides_(sides), threads_(threads) {
   std::vector<LonLat> added;
   pieces_.reserve(sides.size());
@@ -284,9 +298,13 @@ SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, uns
       pieces_.push_back(
           {static_cast<Index>(s), added[k], k + 1 < added.size() ? added[k + 1] : east});
     }
+    // The other end of a side of a closed ring is the last corner of another side.
+    if (s < num_closed) {
+      added[first] = sides[s].to;
+    } else {
+      added.push_back(sides[s].to);
+    }
   }
-  // The last corner of a side is the first one of another side.
-  for (const PlaneSide& side : sides) added.push_back(side.to);
   match(std::move(added));
 }
 

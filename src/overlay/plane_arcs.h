@@ -39,7 +39,9 @@ struct LinePiece {
 // corner than its arc may be from the side gets a corner on the meridian of that corner.
 class SideDivider {
  public:
-  SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads);
+  // The first sides are those of closed rings: each of them ends where another one begins.
+  SideDivider(std::span<const PlaneSide> sides, std::size_t num_closed, double tolerance,
+              unsigned threads);
 
   // Halves all parts of each side s times[s] times, and divides sides further where this requires
   // it. Returns the sides that have changed, in order.

@@ -165,7 +165,7 @@ class AreaKeeper {
       : sides_(sides),
         share_(area_share(tolerance)),
         threads_(threads),
-        divider_(sides, tolerance, threads),
+        divider_(sides, owners.size(), tolerance, threads),
         num_halvings_(sides.size(), 0) {
     for (std::size_t s = 0; s <= owners.size(); ++s) {
       if (s == 0 || s == owners.size() || owners[s] != owners[s - 1]) begins_.push_back(s);

@@ -30,8 +30,8 @@ constexpr double area_share(double tolerance) {
 
 // Divides the sides until the area of each cell differs from the area between its straight lines by
 // no more than `area_share` of it and rounding of its corners. owners[s] is the cell of side s; the
-// sides of a cell follow each other. Sides without an owner come last: they bound no cell. Sides in
-// the same place are divided alike.
+// sides of a cell follow each other, and are its whole border. Sides without an owner come last: they
+// bound no cell. Sides in the same place are divided alike.
 DividedSides divide_for_areas(std::span<const PlaneSide> sides, std::span<const Index> owners,
                               double tolerance, unsigned threads);
 
