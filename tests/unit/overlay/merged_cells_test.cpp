@@ -144,7 +144,8 @@ TEST(overlay_plane_corners, all_near_a_line_are_visited_once) {
       if (k % 3 == 0) p = {std::round(p.lon_deg), std::round(p.lat_deg)};
       if (k % 3 == 1) p = {12 + number(0, 0.1), 34 + number(0, 0.1)};  // crowded
       if (k % 7 == 0) p.lon_deg = k % 2 == 0 ? 180 : -180;
-      corners.push_back({p, static_cast<Index>(k % 5)});
+      const bool is_far = p.lat_deg > 40;  // from other owners
+      corners.push_back({p, is_far ? 1 : static_cast<Index>(k % 5)});
     }
     const overlay::PlaneCorners found(corners);
     for (int line = 0; line < 40; ++line) {
@@ -157,6 +158,19 @@ TEST(overlay_plane_corners, all_near_a_line_are_visited_once) {
       std::vector<LonLat> visited;
       found.visit_near(west, east, margins,
                        [&](const LonLat& p, Index /*owner*/) { visited.push_back(p); });
+      // Those of one owner in the inside of the map may be left out, and no others.
+      for (Index owner = 0; owner < 2; ++owner) {
+        std::vector<LonLat> all;
+        std::vector<LonLat> others;
+        const auto take_in = [&](std::vector<LonLat>& taken) {
+          return [&taken, owner](const LonLat& p, Index of) {
+            if (of != owner || std::abs(p.lon_deg) >= 180) taken.push_back(p);
+          };
+        };
+        found.visit_near(west, east, margins, take_in(all));
+        found.visit_near(west, east, margins, take_in(others), owner);
+        EXPECT_EQ(all, others);
+      }
       const auto count = [&](const LonLat& p) {
         return std::ranges::count_if(visited, [&](const LonLat& q) {
           return p.lat_deg == q.lat_deg && std::abs(p.lon_deg - q.lon_deg) < 1e-9;

@@ -369,6 +369,41 @@ TEST(overlay_repair, geodesic_faults_are_those_of_reading) {
   EXPECT_GT(num_with_holes, 100U);
 }
 
+// True if two sets of cells have the same rings, whatever the numbers of their points are.
+bool have_same_rings(const CellRings& a, const CellRings& b) {
+  const auto places = [](const CellRings& cells) {
+    std::vector<Point> found;
+    for (const Index corner : cells.corners) found.push_back(cells.points[corner]);
+    return found;
+  };
+  return a.cells == b.cells && a.rings == b.rings && a.whole == b.whole && places(a) == places(b);
+}
+
+// Where features are to be repaired, valid ones are taken at first sight, and nobody is told what is
+// wrong with others.
+TEST(overlay_repair, cells_alone_are_those_of_reading) {
+  std::size_t num_valid = 0;
+  std::size_t num_repaired = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    Random random(seed);
+    const LonLatMultiPolygons feature = random_rings(random);
+    for (const PolygonEdges edges : {PolygonEdges::lonlat, PolygonEdges::geodesic}) {
+      const PolygonOptions repair{.edges = edges, .invalid = InvalidPolygons::repair};
+      const CellRings cells = rings_of_polygons(feature, repair);
+      ASSERT_TRUE(have_same_rings(cells, cells_of_polygons(feature, repair).cells)) << seed;
+      try {
+        ASSERT_TRUE(have_same_rings(cells, cells_of_polygons(feature, {.edges = edges}).cells))
+            << seed;
+        ++num_valid;
+      } catch (const InvalidInput&) {
+        ++num_repaired;
+      }
+    }
+  }
+  EXPECT_GT(num_valid, 1000U);
+  EXPECT_GT(num_repaired, 1000U);
+}
+
 TEST(overlay_repair, lines_do_not_make_a_feature_valid) {
   // A bow tie, and a line that ends where its sides cross.
   LonLatGeometries tie;
