@@ -165,6 +165,9 @@ void test_arrow(const CellRings& cells) {
   test_arrow_geometries(drawn);
   const CellTable again = cells_of_polygons(taken, {.tolerance_deg = 1});
   require(again.cells.num_cells() == cells.num_cells(), "a cell for each feature");
+  const CellRings alone = rings_of_polygons(taken, {.tolerance_deg = 1});
+  require(alone.corners == again.cells.corners && alone.points == again.cells.points,
+          "the same cells alone");
 }
 
 void test_features(const FeatureTable& table) {
