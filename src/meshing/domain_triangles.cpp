@@ -222,7 +222,8 @@ class TrianglesOfDomain {
   // Polygons that overlap or touch are simplified as one, and features that cross after they have corners
   // there: so coasts, borders and lines keep their topology.
   void simplify_by(const SimplifyOptions& simplify) {
-    const bool is_coast_alone = end_of_coast_ == all_.size();
+    // A coast by itself is welded and united below.
+    const bool is_coast_alone = end_of_coast_ == all_.size() && all_.lines.rows.size() == 0;
     if (!is_coast_alone) drop_small_rings(simplify);
     weld_rounding();
     const bool is_meeting = make_crossings_corners();

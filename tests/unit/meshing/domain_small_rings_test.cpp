@@ -154,6 +154,25 @@ TEST_F(SmallRingsTest, nothing_is_welded_to_islets_that_vanish) {
   }
 }
 
+// The same where the coast itself has the lines, and there is nothing else.
+TEST_F(SmallRingsTest, lines_of_the_coast_are_not_welded_to_islets_that_vanish) {
+  inputs::Random random(9);
+  const Geometries land = polygon({box(-6, -6, -2, 2)});
+  constexpr double welded = 1e-4 * 15;
+  options_ = simplified_by_spacing(15);
+  for (int run = 0; run < 20; ++run) {
+    SCOPED_TRACE(run);
+    const auto beside = [&] { return 3 + welded * (2 * random.unit() - 1); };
+    const Ring islet = ellipse(beside(), beside(), welded * (0.7 + 3 * random.unit()),
+                               welded * (0.7 + 3 * random.unit()), 3 + run % 4);
+    std::vector<Geometries> coast = {land, line({{2, 2}, {beside(), beside()}, {4, 4.1}}),
+                                     line({{2, 4}, {beside(), beside()}, {4, 2.2}})};
+    const DomainTriangles without = triangles({{together(coast)}, {}, {}}, options_);
+    coast.push_back(polygon({islet}));
+    expect_same(triangles({{together(coast)}, {}, {}}, options_), without);
+  }
+}
+
 TEST_F(SmallRingsTest, parts_of_an_area_that_is_everywhere_change_nothing) {
   const Geometries part = polygon({box(40, 0, 50, 10)});
   const Geometries beside = polygon({box(50.05, 0, 60, 10)});

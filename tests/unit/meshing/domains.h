@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <set>
 #include <tuple>
@@ -49,6 +51,26 @@ inline Geometries line(const Ring& positions) {
   geometries.lines.end_group();
   geometries.polygons.end_cell();
   return geometries;
+}
+
+// All features of some, as one file has them.
+inline Geometries together(const std::vector<Geometries>& features) {
+  Geometries all;
+  for (const Geometries& some : features) {
+    for (std::size_t k = 0; k < some.lines.rows.size(); ++k) {
+      all.lines.rows.append(some.lines.rows[k]);
+    }
+    all.lines.end_group();
+    for (std::uint64_t r = 0; r + 1 < some.polygons.rings.size(); ++r) {
+      for (const Index corner : some.polygons.corners_of(r)) {
+        all.polygons.corners.push_back(static_cast<Index>(all.polygons.points.size()));
+        all.polygons.points.push_back(some.polygons.points[corner]);
+      }
+      all.polygons.end_ring();
+    }
+    all.polygons.end_cell();
+  }
+  return all;
 }
 
 inline Ring box(double west, double south, double east, double north) {
