@@ -68,7 +68,8 @@ struct TrianglesOptions {
   /// coves and the ends of fjords, where edges would be as short as the water is narrow. 0 keeps
   /// all water.
   ///
-  /// The domain without its lines is refined by angles alone (26.5 degrees). Then triangles are
+  /// The domain without its lines, those of `coast` and `area` included, is refined by angles alone
+  /// (26.5 degrees). Then triangles are
   /// filled that have all corners on coasts or the border, and an edge in the water that is
   /// shorter than this share of the spacing at its ends. The new coasts are simplified, with the
   /// tolerance and at least a quarter of that length, and all that is repeated until nothing is

@@ -60,22 +60,28 @@ void append(const CellRings& more, std::size_t begin, std::size_t end, CellRings
   }
 }
 
-void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
-  for (std::size_t i = begin; i < end; ++i) {
-    for (std::uint64_t k = more.lines.offsets[i]; k < more.lines.offsets[i + 1]; ++k) {
-      all.lines.rows.append(more.lines.rows[k]);
-    }
-    all.lines.end_group();
+// Appends the lines of feature i, as one feature.
+void append_lines(const FeatureLines& more, std::size_t i, FeatureLines& all) {
+  for (std::uint64_t k = more.offsets[i]; k < more.offsets[i + 1]; ++k) {
+    all.rows.append(more.rows[k]);
   }
+  all.end_group();
+}
+
+void append(const Geometries& more, std::size_t begin, std::size_t end, Geometries& all) {
+  for (std::size_t i = begin; i < end; ++i) append_lines(more.lines, i, all.lines);
   append(more.polygons, begin, end, all.polygons);
 }
 
 void append(const Geometries& more, Geometries& all) { append(more, 0, more.size(), all); }
 
-// Returns the features with their lines, and polygons without rings.
-Geometries lines_alone(const Geometries& all) {
-  Geometries result = {all.lines, {}};
-  for (std::size_t i = 0; i < all.size(); ++i) result.polygons.end_cell();
+// Returns features from `begin` to before `end` with their lines, and polygons without rings.
+Geometries lines_alone(const Geometries& all, std::size_t begin, std::size_t end) {
+  Geometries result;
+  for (std::size_t i = begin; i < end; ++i) {
+    append_lines(all.lines, i, result.lines);
+    result.polygons.end_cell();
+  }
   return result;
 }
 
@@ -201,7 +207,7 @@ class TrianglesOfDomain {
     const auto has_whole = [](const Geometries& more) { return !more.polygons.whole.empty(); };
     is_everywhere_ = domain.area.empty() || std::ranges::any_of(domain.area, has_whole);
     for (const Geometries& more : domain.area) {
-      append(is_everywhere_ ? lines_alone(more) : more, all_);
+      append(is_everywhere_ ? lines_alone(more, 0, more.size()) : more, all_);
     }
     end_of_area_ = all_.size();
     if (std::ranges::any_of(domain.coast, has_whole)) refuse_land();
@@ -436,16 +442,39 @@ class TrianglesOfDomain {
         meshing::refine_coarsely(triangulation_, regions_, by_angles, small, execution_));
   }
 
-  // Makes land of narrow water, and returns its area. Lines do not make water narrow; so they wait,
-  // and what of them is then on land is no edge of the mesh.
+  // Takes the lines of the coast and of the area away, and all features that are behind these.
+  Geometries taken_lines() {
+    Geometries lines = lines_alone(all_, 0, end_of_area_);
+    append(all_, end_of_area_, all_.size(), lines);
+    all_ = polygons_alone(all_.polygons, 0, end_of_area_);
+    return lines;
+  }
+  // Puts lines back, of which the first ones are those of the coast and of the area.
+  void put_back(const Geometries& lines, std::size_t end_of_coast, std::size_t end_of_area) {
+    Geometries all;
+    append(all_, 0, end_of_coast_, all);
+    append(lines, 0, end_of_coast, all);
+    const std::size_t end = all.size();
+    append(all_, end_of_coast_, end_of_area_, all);
+    append(lines, end_of_coast, end_of_area, all);
+    const std::size_t end_with_area = all.size();
+    append(all_, end_of_area_, all_.size(), all);
+    first_line_ = all.size();
+    append(lines, end_of_area, lines.size(), all);
+    all_ = std::move(all);
+    end_of_coast_ = end;
+    end_of_area_ = end_with_area;
+  }
+
+  // Makes land of narrow water, and returns its area. Lines do not make water narrow, whichever features
+  // have them; so they wait, and what of them is then on land is no edge of the mesh.
   double fill_narrow() {
     constexpr int most_times = 10;
-    Geometries lines;
-    append(all_, end_of_area_, all_.size(), lines);
-    Geometries borders;
-    append(all_, 0, end_of_area_, borders);
-    all_ = std::move(borders);
-    if (lines.size() > 0) triangulate();
+    const std::size_t end_of_coast = end_of_coast_;
+    const std::size_t end_of_area = end_of_area_;
+    const Geometries lines = taken_lines();
+    const bool has_lines = lines.size() > end_of_area || lines.lines.rows.size() > 0;
+    if (has_lines) triangulate();
     const CellRings before = polygon_of_mesh();
     bool is_filled = false;
     std::vector<Point> new_corners;
@@ -462,9 +491,8 @@ class TrianglesOfDomain {
     }
     const double area =
         is_filled ? meshing::area_without(before, polygon_of_mesh(), execution_) : 0;
-    if (lines.size() > 0) {
-      first_line_ = all_.size();
-      append(lines, all_);
+    if (has_lines) {
+      put_back(lines, end_of_coast, end_of_area);
       triangulate();
     }
     return area;

@@ -443,6 +443,32 @@ TEST(domain_triangles, lines_alone_fill_nothing) {
   }
 }
 
+// Whichever features have them: a line from a side of a land, with a sharp angle between.
+TEST(domain_triangles, lines_of_coasts_and_areas_fill_nothing) {
+  TrianglesOptions options = spaced(1);
+  options.fill_narrow = 0.5;
+  const Geometries sea = polygon({box(-9, -8, 9, 8)});
+  const Geometries land = polygon({box(-5, -5, -1, 1)});
+  const Geometries along = line({{-1, -4}, {0, 0.2}});
+  const DomainTriangles made = triangles({{land}, {sea}, {along}}, options);
+  EXPECT_EQ(made.filled_area, 0);
+  const DomainTriangles of_coast =
+      triangles({{together({along, land, along})}, {sea}, {}}, options);
+  EXPECT_EQ(of_coast.filled_area, 0);
+  EXPECT_EQ(of_coast.mesh.triangles, made.mesh.triangles);
+  EXPECT_EQ(number_of(of_coast, FeatureOfEdge::line), 0U);
+  const DomainTriangles of_area = triangles({{land}, {together({along, sea})}, {}}, options);
+  EXPECT_EQ(of_area.filled_area, 0);
+  EXPECT_EQ(of_area.mesh.triangles, made.mesh.triangles);
+  // Water that is filled elsewhere changes nothing of that.
+  const Geometries near = polygon({box(-5, 1.2, -1, 4)});
+  const DomainTriangles filled = triangles({{land, near}, {sea}, {along}}, options);
+  const DomainTriangles other = triangles({{together({land, along, near})}, {sea}, {}}, options);
+  EXPECT_GT(filled.filled_area, 0);
+  EXPECT_EQ(filled.filled_area, other.filled_area);
+  EXPECT_EQ(filled.mesh.triangles, other.mesh.triangles);
+}
+
 // Two countries with a gap of a centimetre, of a fjord that opens from there, and of some kilometres: no gap costs
 // triangles of its width.
 TEST(domain_triangles, gaps_are_filled_however_narrow_they_are) {
