@@ -174,6 +174,8 @@ class TrianglesOfDomain {
     take(domain);
     if (const auto& near = options_.weld) {
       const auto near_at = [&](const Point&) { return *near; };
+      meshing::drop_tiny_rings(all_.polygons, near_at);
+      take_whole();
       make_crossings_corners();  // so that borders in common have the same sides and stay common
       weld(near_at);
       if (make_crossings_corners()) weld(near_at);

@@ -427,9 +427,56 @@ class Weld {
   std::size_t next_ = 0;  // of on_sides_
 };
 
+// True if all corners of a ring are near the one with the smallest coordinates.
+bool is_tiny_ring(const CellRings& polygons, std::uint64_t ring,
+                  const std::function<double(const Point&)>& near_at) {
+  const std::span<const Index> corners = polygons.corners_of(ring);
+  if (corners.empty()) return false;
+  const auto place = [&](Index corner) { return polygons.points[corner]; };
+  const Point least = place(*std::ranges::min_element(corners, exact::is_less, place));
+  const double near = near_at(least);
+  return std::ranges::all_of(corners, [&](Index corner) {
+    const Point step = place(corner) - least;
+    return dot(step, step) <= squared(near);
+  });
+}
+
 }  // namespace
 
+void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point&)>& near_at) {
+  std::vector<bool> is_tiny;
+  for (std::uint64_t r = 0; r + 1 < polygons.rings.size(); ++r) {
+    is_tiny.push_back(is_tiny_ring(polygons, r, near_at));
+  }
+  if (std::ranges::find(is_tiny, true) == is_tiny.end()) return;
+  CellRings kept;
+  kept.points = polygons.points;
+  for (std::size_t cell = 0; cell < polygons.num_cells(); ++cell) {
+    const auto first = static_cast<std::ptrdiff_t>(polygons.cells[cell]);
+    const auto end = static_cast<std::ptrdiff_t>(polygons.cells[cell + 1]);
+    const std::vector<bool> dropped(is_tiny.begin() + first, is_tiny.begin() + end);
+    if (std::ranges::find(dropped, true) == dropped.end()) {
+      kept.append_cell(polygons, cell);
+      continue;
+    }
+    const std::vector<bool> is_within = rings_within(polygons, cell, dropped);
+    std::vector<std::vector<Point>> given;
+    const std::size_t num_before = kept.rings.size();
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+      const std::uint64_t ring = polygons.cells[cell] + i;
+      given.push_back(overlay::points_of_ring(polygons, ring));
+      if (!dropped[i] && !is_within[i]) kept.append_ring(polygons.corners_of(ring));
+    }
+    if (kept.rings.size() == num_before && map::have_outside_on_left(given)) {
+      kept.whole.push_back(static_cast<Index>(cell));
+    }
+    kept.end_cell();
+  }
+  polygons = std::move(kept);
+}
+
 void weld(Geometries& features, const std::function<double(const Point&)>& near_at) {
+  drop_tiny_rings(features.polygons, near_at);
   // Sides that have moved may come near to other corners, and repaired polygons have new ones.
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds && Weld(features, near_at).run(); ++round) {

@@ -13,6 +13,7 @@
 
 #include <functional>
 
+#include "rondel/cell_rings.h"
 #include "rondel/geometries.h"
 #include "rondel/types.h"
 
@@ -27,8 +28,13 @@ inline constexpr double rounding_of_places = 1e-12;
 // near one of them, and a small one that would be turned inside out; and so do rings of its polygon
 // that are within it. A line of which one point is left becomes that point. Polygons that have
 // changed are repaired (rondel/set_operations.h), each by itself; those without rings that had the
-// outside of these are the whole sphere.
+// outside of these are the whole sphere. Rings whose given corners are all near one of them vanish first
+// (drop_tiny_rings()).
 // Precondition: no polygon is the whole sphere.
 void weld(Geometries& features, const std::function<double(const Point&)>& near_at);
+
+// Leaves out rings all of whose corners are near one of them, and those within them, so that nothing is
+// welded to what vanishes.
+void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point&)>& near_at);
 
 }  // namespace rondel::meshing

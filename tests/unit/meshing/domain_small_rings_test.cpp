@@ -233,6 +233,23 @@ TEST_F(SmallRingsTest, borders_that_fit_are_not_torn_by_a_weld) {
   }
 }
 
+// Islets that a weld makes vanish, where lines pass them.
+TEST_F(SmallRingsTest, nothing_is_welded_to_islets_that_a_weld_drops) {
+  inputs::Random random(10);
+  constexpr double weld = 0.05;
+  options_.weld = weld * std::numbers::pi / 180;
+  for (int run = 0; run < 100; ++run) {
+    SCOPED_TRACE(run);
+    options_.tolerance = run % 2 == 0 ? std::optional<double>(0) : std::nullopt;
+    const auto beside = [&] { return 3 + weld * (random.unit() - 0.5); };
+    const Ring islet = ellipse(beside(), beside(), weld * (0.2 + 0.7 * random.unit()),
+                               weld * (0.2 + 0.7 * random.unit()), 3 + run % 4);
+    lines_ = {line({{2, 2.2}, {beside(), beside()}, {4, 3.9}})};
+    if (run % 3 == 0) lines_.push_back(line({{2.1, 4}, {beside(), beside()}, {3.8, 2}}));
+    expect_equal({polygon({islet})}, {});
+  }
+}
+
 // A star that is squeezed to a line has folds along it, which no removal of corners undoes.
 TEST_F(SmallRingsTest, folded_rings_along_an_arc_vanish) {
   inputs::Random random(8);
