@@ -61,8 +61,9 @@ struct TrianglesOptions {
   /// Corners, ends and points that are nearer than this, in radians, to another one or to a side are
   /// put there before anything else is done: for gaps and overlaps that rounded numbers leave along
   /// borders. Of one line or ring that is done where the way along it is more than eight times as
-  /// long. Features that cross then get corners there, which are welded, too. Rings that are no
-  /// larger vanish, and polygons that have changed are repaired. At most pi / 4.
+  /// long. Rings that are no larger vanish before. Places where features cross are corners, which
+  /// are welded, too, also to the ends of the sides that cross; and polygons that have changed are
+  /// repaired. At most pi / 4.
   std::optional<double> weld = std::nullopt;
   /// Water that is narrower than this share of the spacing, from 0 to 1, becomes land: straits,
   /// coves and the ends of fjords, where edges would be as short as the water is narrow. 0 keeps

@@ -172,15 +172,7 @@ class TrianglesOfDomain {
 
   DomainTriangles run(const MeshDomain& domain) {
     take(domain);
-    if (const auto& near = options_.weld) {
-      const auto near_at = [&](const Point&) { return *near; };
-      meshing::drop_tiny_rings(all_.polygons, near_at);
-      take_whole();
-      make_crossings_corners();  // so that borders in common have the same sides and stay common
-      weld(near_at);
-      if (make_crossings_corners()) weld(near_at);
-      require_area("the distance of welding");
-    }
+    if (options_.weld) weld_within(*options_.weld);
     simplify();
     require_area(options_.tolerance ? "the tolerance with which it is simplified"
                                     : "a quarter of the spacing, with which it is simplified "
@@ -215,6 +207,19 @@ class TrianglesOfDomain {
     if (std::ranges::any_of(domain.coast, has_whole)) refuse_land();
     first_line_ = all_.size();
     for (const Geometries& more : domain.lines) append(more, all_);
+  }
+
+  // Welds what is too near, and what crosses after that.
+  void weld_within(double near) {
+    constexpr int most_times = 4;
+    const auto near_at = [&](const Point&) { return near; };
+    meshing::drop_tiny_rings(all_.polygons, near_at);
+    take_whole();
+    const std::vector<Point> given = meshing::places_of(all_);
+    make_crossings_corners();  // so that borders in common have the same sides and stay common
+    weld(near_at, given);
+    for (int k = 1; k < most_times && make_crossings_corners(); ++k) weld(near_at, given);
+    require_area("the distance of welding");
   }
 
   void simplify() {
@@ -298,8 +303,8 @@ class TrianglesOfDomain {
     return true;
   }
 
-  void weld(const std::function<double(const Point&)>& near_at) {
-    meshing::weld(all_, near_at);
+  void weld(const std::function<double(const Point&)>& near_at, std::span<const Point> given = {}) {
+    meshing::weld(all_, near_at, given);
     take_whole();
   }
 

@@ -38,8 +38,9 @@ SpaceBox box_around(const Point& p, double near) {
 
 double squared(double x) { return x * x; }
 
-// Places of one outline that are as near along it as so many times the distance of the weld are no
-// gap but its own shape, which the simplification treats: a weld could turn a small ring inside out.
+// Places of one outline between which the way along it is no longer than so many times their distance
+// are no gap but its own shape, which the simplification treats: a weld could turn a small ring inside
+// out. What is left are needles, of less than 7 degrees.
 constexpr double along_outline = 8;
 
 // Lengths along outlines are whole numbers of this unit, whose sums no order changes.
@@ -66,7 +67,9 @@ struct PlaceOnRow {
 
 class Weld {
  public:
-  Weld(Geometries& features, const std::function<double(const Point&)>& near_at)
+  // `given` is sorted; none: all places are.
+  Weld(Geometries& features, const std::function<double(const Point&)>& near_at,
+       std::span<const Point> given)
       : features_(features) {
     std::vector<Point> points = features.lines.rows.values;
     for (const Index corner : features.polygons.corners) {
@@ -75,7 +78,10 @@ class Weld {
     auto [sites, numbers] = system::distinct(std::span<const Point>(points));
     sites_ = std::move(sites);
     numbers_ = std::move(numbers);
-    for (const Point& site : sites_) near_.push_back(near_at(site));
+    for (const Point& site : sites_) {
+      near_.push_back(near_at(site));
+      is_given_.push_back(given.empty() || std::ranges::binary_search(given, site, exact::is_less));
+    }
     for (Index i = 0; i < sites_.size(); ++i) places_.push_back(i);
     for_each_row([&](std::uint64_t begin, std::uint64_t end, bool is_ring) {
       take_places(begin, end, is_ring);
@@ -138,17 +144,12 @@ class Weld {
     lengths_.push_back(is_ring ? along : length_of_line);
   }
   [[nodiscard]] bool is_line(Index row) const { return lengths_[row] == length_of_line; }
-  // True if two sites are so near along a line or a ring, one of those for which is_meant(row), that
-  // this has its shape between them. It has none that a simplification could leave out between places
-  // where lines meet others.
+  // True if a line or a ring, one of those for which is_meant(row), has its shape between two sites, for
+  // this distance. It has none that a simplification could leave out between places where lines meet
+  // others.
   template <class IsMeant>
-  [[nodiscard]] bool are_of_one_shape(Index i, Index j, const IsMeant& is_meant) const {
-    const std::int64_t most = std::llround(units * along_outline * near_[i]);
-    const auto places_of = [&](Index site) {
-      const auto begin = std::ranges::lower_bound(on_rows_, site, {}, &PlaceOnRow::site);
-      const auto end = std::ranges::upper_bound(on_rows_, site, {}, &PlaceOnRow::site);
-      return std::span(begin, end);
-    };
+  [[nodiscard]] bool are_of_one_shape(Index i, Index j, double distance,
+                                      const IsMeant& is_meant) const {
     const auto of_i = places_of(i);
     const auto of_j = places_of(j);
     const auto is_on_line_and_more = [&](std::span<const PlaceOnRow> places) {
@@ -156,38 +157,95 @@ class Weld {
              std::ranges::any_of(places, [&](const PlaceOnRow& at) { return is_line(at.row); });
     };
     if (is_on_line_and_more(of_i) && is_on_line_and_more(of_j)) return false;
+    return least_way(of_i, of_j, is_meant) <= std::llround(units * along_outline * distance);
+  }
+  [[nodiscard]] std::span<const PlaceOnRow> places_of(Index site) const {
+    const auto begin = std::ranges::lower_bound(on_rows_, site, {}, &PlaceOnRow::site);
+    const auto end = std::ranges::upper_bound(on_rows_, site, {}, &PlaceOnRow::site);
+    return {begin, end};
+  }
+  // Returns the least length of a way between two sites along lines and rings for which is_meant(row).
+  template <class IsMeant>
+  [[nodiscard]] std::int64_t least_way(std::span<const PlaceOnRow> of_i,
+                                       std::span<const PlaceOnRow> of_j,
+                                       const IsMeant& is_meant) const {
+    std::int64_t least = length_of_line;
     // Both are sorted by rows, of which a place where many lines meet has many.
     auto first = of_j.begin();
     for (const PlaceOnRow& a : of_i) {
       while (first != of_j.end() && first->row < a.row) ++first;
       for (auto b = first; b != of_j.end() && b->row == a.row; ++b) {
         const std::int64_t way = std::abs(a.along - b->along);
-        if (std::min(way, lengths_[a.row] - way) <= most && is_meant(a.row)) return true;
+        if (is_meant(a.row)) least = std::min({least, way, lengths_[a.row] - way});
       }
     }
-    return false;
+    return least;
   }
 
   // Gives sites that are too near to one with smaller coordinates the place of that one: the order of
-  // sites changes nothing.
+  // sites changes nothing. Crossings come last, and go to the nearest corner: the sides that cross there
+  // have no shape but between their ends.
   void unite_sites() {
-    const std::vector<Point>& sites = sites_;
-    const auto is_before = [&](Index i, Index j) { return exact::is_less(sites[i], sites[j]); };
-    std::vector<Index> order = places_;
-    std::ranges::sort(order, is_before);
     const BoxTree tree(
-        sites.size(), [&](std::size_t i) { return box_around(sites[i], 0); }, 1);
+        sites_.size(), [&](std::size_t i) { return box_around(sites_[i], 0); }, 1);
+    std::vector<Index> order = places_;
+    std::ranges::sort(order, [&](Index i, Index j) { return is_less(i, j); });
     for (const Index i : order) {
-      if (places_[i] != i) continue;
-      tree.visit(box_around(sites[i], near_[i]), [&](Index j) {
-        const Point step = sites[j] - sites[i];
-        const double distance = dot(step, step);
-        if (!is_before(i, j) || places_[j] != j || distance > squared(near_[i])) return;
-        if (distance > squared(rounding_of_places) && are_of_one_shape(i, j, any_row)) return;
-        places_[j] = i;
-        ++num_united_;
-      });
+      if (is_given_[i]) take_near(i, tree);
     }
+    for (const Index i : order) {
+      if (!is_given_[i]) go_to_nearest(i, tree);
+    }
+    for (const Index i : order) {
+      if (!is_given_[i]) take_near(i, tree);
+    }
+  }
+  [[nodiscard]] bool is_less(Index i, Index j) const {
+    return exact::is_less(sites_[i], sites_[j]);
+  }
+  [[nodiscard]] double squared_distance(Index i, Index j) const {
+    const Point step = sites_[j] - sites_[i];
+    return dot(step, step);
+  }
+  // Gives sites of the same kind that are too near to a site its place.
+  void take_near(Index i, const BoxTree& tree) {
+    if (places_[i] != i) return;
+    tree.visit(box_around(sites_[i], near_[i]), [&](Index j) {
+      const double distance = squared_distance(i, j);
+      if (is_given_[i] != is_given_[j] || !is_less(i, j) || places_[j] != j ||
+          distance > squared(near_[i])) {
+        return;
+      }
+      if (is_given_[i] && distance > squared(rounding_of_places) &&
+          are_of_one_shape(i, j, std::sqrt(distance), any_row)) {
+        return;
+      }
+      places_[j] = i;
+      ++num_united_;
+    });
+  }
+  // True if a crossing is across a narrow part of a small line or ring from a corner of it: not at the end
+  // of its side. The ring would be folded there.
+  [[nodiscard]] bool is_across(Index crossing, Index corner, double distance) const {
+    constexpr double straight = 1 + 0x1p-10;
+    const std::int64_t way = least_way(places_of(crossing), places_of(corner), any_row);
+    return way <= std::llround(units * along_outline * near_[crossing]) &&
+           way > std::llround(units * (straight * distance + rounding_of_places));
+  }
+  // Gives a crossing the place of the nearest corner that stays, if that is too near.
+  void go_to_nearest(Index i, const BoxTree& tree) {
+    double least = squared(near_[i]);
+    Index nearest = i;
+    tree.visit(box_around(sites_[i], near_[i]), [&](Index j) {
+      if (!is_given_[j] || places_[j] != j) return;
+      const double distance = squared_distance(i, j);
+      if (is_across(i, j, std::sqrt(distance))) return;
+      if (distance > least || (distance == least && nearest != i && is_less(nearest, j))) return;
+      std::tie(least, nearest) = std::pair(distance, j);
+    });
+    if (nearest == i) return;
+    places_[i] = nearest;
+    ++num_united_;
   }
 
   // Adds the sides of a line or ring, whose sites are those of some numbers.
@@ -204,14 +262,16 @@ class Weld {
   // True if a site is beside a side by the shape of a line or a ring that has the side, or by that of an
   // outline that is at both ends of it: a weld would run to and fro between the corners of a small one
   // across it. Beside lines that does no harm.
-  [[nodiscard]] bool is_of_one_shape(Index site, const std::array<Index, 2>& side) const {
+  [[nodiscard]] bool is_of_one_shape(Index site, const std::array<Index, 2>& side,
+                                     double height) const {
     const auto [low, high] = std::minmax(side[0], side[1]);
     auto has_it = std::ranges::lower_bound(rows_of_sides_, SideOfRow{low, high, 0});
     const auto has_side = [&, first = has_it](Index row) {
       return std::ranges::binary_search(first, rows_of_sides_.end(),
                                         SideOfRow{first->low, first->high, row});
     };
-    if (are_of_one_shape(site, side[0], has_side) || are_of_one_shape(site, side[1], has_side)) {
+    if (are_of_one_shape(site, side[0], height, has_side) ||
+        are_of_one_shape(site, side[1], height, has_side)) {
       return true;
     }
     while (is_line(has_it->row)) {
@@ -219,7 +279,8 @@ class Weld {
       if (has_it == rows_of_sides_.end() || has_it->low != low || has_it->high != high)
         return false;
     }
-    return are_of_one_shape(site, side[0], any_row) && are_of_one_shape(site, side[1], any_row);
+    return are_of_one_shape(site, side[0], height, any_row) &&
+           are_of_one_shape(site, side[1], height, any_row);
   }
 
   void find_sites_on_sides() {
@@ -255,7 +316,9 @@ class Weld {
     const Point normal = normalized(across);
     const double height = dot(normal, p);
     if (!(height * height <= squared(near_[site]))) return;
-    if (std::abs(height) > rounding_of_places && is_of_one_shape(site, sides_[side])) return;
+    if (std::abs(height) > rounding_of_places &&
+        is_of_one_shape(site, sides_[side], std::abs(height)))
+      return;
     const Point foot = p - height * normal;
     const bool is_between = dot(normal, cross(a, foot)) > 0 && dot(normal, cross(foot, b)) > 0;
     if (!is_between) return;
@@ -419,6 +482,7 @@ class Weld {
   Index num_rows_ = 0;                       // of which there are sides
   std::vector<Index> places_;                // of each site: the site whose place it has
   std::vector<double> near_;                 // by site
+  std::vector<bool> is_given_;               // by site: it is no crossing
   std::vector<PlaceOnRow> on_rows_;          // sorted by site
   std::vector<std::int64_t> lengths_;        // of lines, which do not come back, and of rings
   std::vector<SiteOnSide> on_sides_;
@@ -475,12 +539,22 @@ void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point
   polygons = std::move(kept);
 }
 
-void weld(Geometries& features, const std::function<double(const Point&)>& near_at) {
+void weld(Geometries& features, const std::function<double(const Point&)>& near_at,
+          std::span<const Point> given) {
   drop_tiny_rings(features.polygons, near_at);
   // Sides that have moved may come near to other corners, and repaired polygons have new ones.
   constexpr int most_rounds = 4;
-  for (int round = 0; round < most_rounds && Weld(features, near_at).run(); ++round) {
+  for (int round = 0; round < most_rounds && Weld(features, near_at, given).run(); ++round) {
   }
+}
+
+std::vector<Point> places_of(const Geometries& features) {
+  std::vector<Point> places = features.lines.rows.values;
+  for (const Index corner : features.polygons.corners) {
+    places.push_back(features.polygons.points[corner]);
+  }
+  std::ranges::sort(places, exact::is_less);
+  return places;
 }
 
 }  // namespace rondel::meshing

@@ -267,6 +267,51 @@ TEST(domain_crossings, crossings_of_rivers_beside_a_coast_are_welded) {
   }
 }
 
+// Corners of a coast that poke over the border of the sea, however little, sharp ones and blunt ones.
+TEST(domain_crossings, corners_that_cross_a_border_are_welded) {
+  const Geometries sea = polygon({box(-5, -5, 5, 5)});
+  std::mt19937 random(4);
+  const auto unit = [&] { return 0x1p-32 * static_cast<double>(random()); };
+  constexpr double weld = 0.05;
+  for (int round = 0; round < 120; ++round) {
+    SCOPED_TRACE(round);
+    const double over = (round % 2 == 0 ? 1 : -1) * weld * std::pow(10, -4 * unit());
+    const double lat = -3 + 6 * unit();
+    const double width = round % 3 == 0 ? weld * (1 + 20 * unit()) : 0;
+    const Ring land = round % 3 == 0
+                          ? Ring{{5 - over, lat},
+                                 {5 + weld, lat - width},
+                                 {7, lat - 1},
+                                 {7, lat + 1},
+                                 {5 + weld, lat + width}}
+                          : Ring{{5 - over, lat}, {7, lat - 0.1 - unit()}, {7, lat + 0.1 + unit()}};
+    TrianglesOptions options = spaced(1);
+    options.weld = weld * std::numbers::pi / 180;
+    if (round % 4 < 2) options.tolerance.reset();
+    EXPECT_GT(shortest_edge(triangles({{polygon({land})}, {sea}, {}}, options)), 0.9 * weld);
+  }
+}
+
+// Three countries as one data set has them, whose borders cross each other by some centimetres beside a
+// needle between them.
+TEST(domain_crossings, needles_are_welded) {
+  const LonLat tip = {33.96286402485788, 9.464302975197464};
+  const Geometries north =
+      polygon({{{33.975, 8.685}, {33.965, 9.464}, tip},
+               {{33.2, 10.72}, {33.824, 9.484}, tip, {33.961, 9.584}, {34.256, 10.63}}});
+  const Geometries east =
+      polygon({{{34.256, 10.63}, {33.961, 9.584}, {33.975, 8.685}, {36, 8}, {36, 10.6}}});
+  const Geometries south =
+      polygon({{{33.975, 8.685}, {33.965, 9.464}, {33.824, 9.484}, {33.2, 10.72}, {31, 8.5}}});
+  for (const double weld : {0.02, 0.05, 0.1, 0.18}) {
+    SCOPED_TRACE(weld);
+    TrianglesOptions options = spaced(2.7);
+    options.weld = weld * std::numbers::pi / 180;
+    const DomainTriangles made = triangles({{}, {north, east, south}, {}}, options);
+    EXPECT_GT(shortest_edge(made), 0.001);  // the needle has a side as short as that
+  }
+}
+
 TEST(domain_crossings, coasts_that_cross_are_simplified_where_water_is_filled) {
   std::vector<Geometries> land;
   for (const Ring& ring : std::vector<Ring>{

@@ -250,6 +250,18 @@ TEST_F(SmallRingsTest, nothing_is_welded_to_islets_that_a_weld_drops) {
   }
 }
 
+// An islet at the side of a land, whose lake is on that land: the weld bends that side, but not such that the
+// lake is open.
+TEST_F(SmallRingsTest, no_lake_opens_in_a_weld) {
+  const Geometries land = polygon({box(-5, -5, -1, 1)});
+  const Geometries islet = polygon(
+      {{{-0.835, -2.84}, {-1.13, -2.66}, {-1.195, -3.025}, {-0.975, -3.06}, {-0.885, -2.965}},
+       reversed({{-1.0125, -2.85}, {-1.055, -2.9225}, {-1.035, -2.9575}, {-1.0225, -2.9625}})});
+  options_ = spaced(2);
+  options_.weld = 0.05 * std::numbers::pi / 180;
+  EXPECT_GT(shortest_edge(triangles({{land, islet}, {sea_}, {}}, options_)), 0.1);
+}
+
 // A star that is squeezed to a line has folds along it, which no removal of corners undoes.
 TEST_F(SmallRingsTest, folded_rings_along_an_arc_vanish) {
   inputs::Random random(8);
