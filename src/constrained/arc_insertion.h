@@ -25,7 +25,6 @@
 #include <utility>
 #include <vector>
 
-#include "constrained/ear_triangulation.h"
 #include "dynamic/link_triangulation.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
@@ -262,9 +261,8 @@ class ArcInsertion {
   [[nodiscard]] bool is_almost_convex(const Faces& faces, const Polygon& polygon,
                                       const SubPolygon& part);
   void take_ring(const Polygon& polygon, const SubPolygon& part);
-  [[nodiscard]] bool triangulate_at_once(Faces& faces);
-  Index take_triangulation(Faces& faces, std::span<const topology::Face> made,
-                           const Polygon& polygon, const SubPolygon& part);
+  [[nodiscard]] bool triangulate_at_once(Faces& faces, bool is_convex);
+  Index take_triangulation(Faces& faces, const Polygon& polygon, const SubPolygon& part);
 
   // All of this belongs to the arc that is inserted.
   std::vector<Index> cavity_;
@@ -273,7 +271,6 @@ class ArcInsertion {
   std::vector<SubPolygon> to_fill_;
   std::vector<DoubleEdge> double_edges_;
   dynamic::LinkTriangulation triangulation_;
-  EarTriangulation ears_;
   std::vector<Index> ring_;   // the vertices of a part
   std::vector<Index> slots_;  // the faces that fill it
 };
@@ -371,19 +368,27 @@ void ArcInsertion<Faces>::take_ring(const Polygon& polygon, const SubPolygon& pa
   for (Index i = part.last; i > part.first; --i) ring_.push_back(polygon.vertices[i]);
 }
 
-// Triangulates the ring in random order (Chew 1990), in expected linear time if it is convex. If it is
-// not, the result may be wrong: it is right if all faces are positive and all edges between them are
+// Triangulates the ring in random order (Chew 1990). As if it were convex that takes less time, and the
+// result may be wrong if it is not: it is right if all faces are positive and all edges between them are
 // locally Delaunay, which is tested. Nothing but triangulation_ changes.
 template <class Faces>
-bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces) {
+bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces, bool is_convex) {
   struct CircleTest {
     Faces& faces;
     [[nodiscard]] bool is_in_conflict(const Triple& face, Index v) const {
-      return faces.is_in_circle(face[0], face[1], face[2], v);
+      return v != face[0] && v != face[1] && v != face[2] &&
+             faces.is_in_circle(face[0], face[1], face[2], v);
     }
   };
   CircleTest test{faces};
-  triangulation_.run(test, ring_);
+  const auto is_corner_convex = [&](Index p, Index u, Index q) {
+    return ring_[p] != ring_[q] && faces.side(ring_[p], ring_[u], ring_[q]) == Sign::positive;
+  };
+  if (is_convex) {
+    triangulation_.run(test, ring_);
+  } else if (!triangulation_.run_by_ears(test, ring_, is_corner_convex)) {
+    return false;
+  }
   const auto made = triangulation_.faces();
   for (std::size_t k = 0; k < made.size(); ++k) {
     const auto& v = made[k].vertex;
@@ -401,8 +406,9 @@ bool ArcInsertion<Faces>::triangulate_at_once(Faces& faces) {
 // Takes the faces of a part that was triangulated at once, and returns the halfedge from its first
 // vertex to its last one.
 template <class Faces>
-Index ArcInsertion<Faces>::take_triangulation(Faces& faces, std::span<const topology::Face> made,
-                                              const Polygon& polygon, const SubPolygon& part) {
+Index ArcInsertion<Faces>::take_triangulation(Faces& faces, const Polygon& polygon,
+                                              const SubPolygon& part) {
+  const auto made = triangulation_.faces();
   slots_.clear();
   for (const topology::Face& face : made) {
     const auto& v = face.vertex;
@@ -466,13 +472,16 @@ Index ArcInsertion<Faces>::fill(Faces& faces, const Polygon& polygon) {
       continue;
     }
     const bool is_tried = part.size() >= many && part.size() <= limit;
-    const bool is_convex = is_tried && is_almost_convex(faces, polygon, part);
-    if (is_tried) take_ring(polygon, part);
+    bool is_done = false;
+    if (is_tried) {
+      const bool is_convex = is_almost_convex(faces, polygon, part);
+      take_ring(polygon, part);
+      is_done =
+          (is_convex && triangulate_at_once(faces, true)) || triangulate_at_once(faces, false);
+    }
     Index to_last = no_index;
-    if (is_convex && triangulate_at_once(faces)) {
-      to_last = take_triangulation(faces, triangulation_.faces(), polygon, part);
-    } else if (is_tried && ears_.run(faces, ring_)) {
-      to_last = take_triangulation(faces, ears_.faces(), polygon, part);
+    if (is_done) {
+      to_last = take_triangulation(faces, polygon, part);
     } else {
       const Index apex = apex_of(faces, polygon, first, last);
       const std::vector<Index>& chain = polygon.vertices;

@@ -36,21 +36,31 @@ class LinkTriangulation {
   template <class Test>
   void run(Test& test, std::span<const Index> link) {
     const auto size = static_cast<Index>(link.size());
+    close_ring(size);
     shuffle(size);
-    for (Index i = 0; i + 3 < size; ++i) {
-      const Index u = order_[i];
-      next_[previous_[u]] = next_[u];
-      previous_[next_[u]] = previous_[u];
-    }
+    for (Index i = 0; i + 3 < size; ++i) take_off(order_[i]);
     start(order_[size - 3]);
     for (Index i = size - 3; i-- > 0;) put_back(test, link, order_[i]);
+  }
+  // The same for a polygon that need not be convex, but whose corners that are convex are ears, also
+  // when others have been taken off, except for positions 0 and 1: only these corners are taken off.
+  // is_convex(p, u, q) says whether the corner u is, by positions, if its neighbors are p and q.
+  // Returns false if there are not enough of them; faces() is invalid then.
+  template <class Test, class IsConvex>
+  bool run_by_ears(Test& test, std::span<const Index> link, const IsConvex& is_convex) {
+    const auto size = static_cast<Index>(link.size());
+    close_ring(size);
+    if (!take_ears_off(size, is_convex)) return false;
+    start(0);
+    for (Index i = size - 3; i-- > 0;) put_back(test, link, order_[i]);
+    return true;
   }
 
   // Vertices are positions in the link. An edge of the polygon has no opposite.
   [[nodiscard]] std::span<const topology::Face> faces() const { return faces_; }
 
  private:
-  void shuffle(Index size) {
+  void close_ring(Index size) {
     order_.resize(size);
     next_.resize(size);
     previous_.resize(size);
@@ -60,11 +70,46 @@ class LinkTriangulation {
       next_[i] = i + 1 < size ? i + 1 : 0;
       previous_[i] = i > 0 ? i - 1 : size - 1;
     }
-    for (Index i = size; i > 3; --i) {
-      // Knuth's linear congruential generator.
-      random_ = random_ * 6364136223846793005U + 1442695040888963407U;
-      std::swap(order_[size - i], order_[size - i + static_cast<Index>((random_ >> 33) % i)]);
+  }
+
+  void shuffle(Index size) {
+    for (Index i = size; i > 3; --i) std::swap(order_[size - i], order_[size - i + below(i)]);
+  }
+
+  // Returns a number below another one, by Knuth's linear congruential generator.
+  Index below(Index limit) {
+    random_ = random_ * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<Index>((random_ >> 33) % limit);
+  }
+
+  void take_off(Index u) {
+    next_[previous_[u]] = next_[u];
+    previous_[next_[u]] = previous_[u];
+  }
+
+  // Takes convex corners off in random order, until three are left. One that is convex stays so when a
+  // neighbor goes.
+  template <class IsConvex>
+  bool take_ears_off(Index size, const IsConvex& is_convex) {
+    ears_.clear();
+    is_ear_.assign(size, false);
+    const auto look_at = [&](Index u) {
+      if (u < 2 || is_ear_[u] || !is_convex(previous_[u], u, next_[u])) return;
+      is_ear_[u] = true;
+      ears_.push_back(u);
+    };
+    for (Index u = 2; u < size; ++u) look_at(u);
+    for (Index i = 0; i + 3 < size; ++i) {
+      if (ears_.empty()) return false;
+      std::swap(ears_[below(static_cast<Index>(ears_.size()))], ears_.back());
+      const Index u = ears_.back();
+      ears_.pop_back();
+      order_[i] = u;
+      take_off(u);
+      look_at(previous_[u]);
+      look_at(next_[u]);
     }
+    return true;
   }
 
   void start(Index a) {
@@ -149,6 +194,8 @@ class LinkTriangulation {
   std::vector<Index> next_;
   std::vector<Index> previous_;
   std::vector<topology::Halfedge> inner_;  // for each edge of the polygon, by its first corner
+  std::vector<Index> ears_;
+  std::vector<bool> is_ear_;  // also of those that have been taken off
   std::vector<Index> region_;
   std::vector<topology::HorizonEdge> horizon_;
   std::vector<topology::HorizonEdge> stack_;
