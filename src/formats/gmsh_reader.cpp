@@ -103,8 +103,10 @@ class GmshReader {
         throw BadValue(io::in_quotes(section) + " where a section is needed");
       }
       if (section == "$PhysicalNames") read_groups();
-      if (section == "$Entities") read_entities();
+      if (section == "$Entities" && is_version_4_) read_entities();
+      if (section == "$PartitionedEntities" && is_version_4_) read_partitioned_entities();
       if (section == "$Nodes") is_version_4_ ? read_nodes4() : read_nodes2();
+      if (section == "$ParametricNodes" && !is_version_4_) read_nodes2();
       if (section == "$Elements") is_version_4_ ? read_elements4() : read_elements2();
       if (section == "$NodeData") read_data();
       skip_to("$End" + section.substr(1));
@@ -176,11 +178,42 @@ class GmshReader {
     for (std::uint64_t i = 0; i < num_points; ++i) lines_.require("point", i, num_points);
     for (std::uint64_t i = 0; i < num_curves; ++i) {
       lines_.require("curve", i, num_curves);
-      if (lines_.count(7, "number of groups") == 0) continue;
-      groups_of_curves_[lines_.integer(0, "number of a curve")] =
-          std::abs(lines_.integer(8, "number of a group"));
+      read_groups_of_curve(7);
     }
     lines_.require("end of the entities", 0, 1);
+  }
+
+  // Reads the same of the parts of curves in partitions, which are curves of their own.
+  void read_partitioned_entities() {
+    lines_.require("number of partitions", 0, 1);
+    lines_.require("number of ghosts", 0, 1);
+    const std::uint64_t num_ghosts = lines_.count(0, "number of ghosts");
+    for (std::uint64_t i = 0; i < num_ghosts; ++i) lines_.require("ghost", i, num_ghosts);
+    lines_.require("numbers of entities", 0, 1);
+    const std::uint64_t num_points = lines_.count(0, "number of points");
+    const std::uint64_t num_curves = lines_.count(1, "number of curves");
+    for (std::uint64_t i = 0; i < num_points; ++i) lines_.require("point", i, num_points);
+    for (std::uint64_t i = 0; i < num_curves; ++i) {
+      lines_.require("curve", i, num_curves);
+      // Its number, its parent (2), the partitions, a box (6), the groups.
+      read_groups_of_curve(static_cast<std::size_t>(lines_.count(3, "number of partitions")) + 10);
+    }
+  }
+
+  // Reads the groups of a curve, whose number is word k: the first one that is a kind of boundary counts.
+  void read_groups_of_curve(std::size_t k) {
+    const std::uint64_t count = lines_.count(k, "number of groups");
+    if (count == 0) return;
+    const auto group = [&](std::uint64_t i) {
+      return std::abs(lines_.integer(k + 1 + static_cast<std::size_t>(i), "number of a group"));
+    };
+    std::int64_t chosen = group(0);
+    for (std::uint64_t i = 1; i < count && !kind_of(chosen); ++i) chosen = group(i);
+    groups_of_curves_[lines_.integer(0, "number of a curve")] = chosen;
+  }
+  [[nodiscard]] std::optional<BoundaryKind> kind_of(std::int64_t group) const {
+    const auto found = groups_.find(group);
+    return found == groups_.end() ? std::nullopt : from_name<BoundaryKind>(found->second);
   }
 
   // Adds the node whose coordinates begin with word k.
@@ -323,9 +356,7 @@ class GmshReader {
     const GmshElement* last = nullptr;
     std::vector<GmshSegment> segments;
     for (const GmshElement& line : line_elements_) {
-      const auto group = groups_.find(line.group);
-      const std::optional<BoundaryKind> kind =
-          group == groups_.end() ? std::nullopt : from_name<BoundaryKind>(group->second);
+      const std::optional<BoundaryKind> kind = kind_of(line.group);
       if (!kind) {
         ++num_others;
         continue;

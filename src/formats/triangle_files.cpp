@@ -175,12 +175,20 @@ void write_triangle_mesh(const FileName& name, const TriangleMesh& mesh,
   const formats::MeshOfFile content = {
       mesh, is_in_space ? std::vector<LonLat>() : meshing::sound_positions(mesh), execution};
   const OceanFormat* const format = ocean_format(name);
+  std::size_t num_clockwise = 0;
   if (!is_in_space && (format != nullptr || is_fesom(name))) {
-    meshing::require_area_in_degrees(content.positions, mesh.triangles);
+    num_clockwise = meshing::require_area_in_degrees(content.positions, mesh.triangles);
   }
   if (remarks != nullptr) {
     const bool has_types = format == nullptr || format->write == &formats::write_gr3;
     *remarks = lost_in(is_fesom(name), is_in_space, !is_fesom(name) && has_types, mesh);
+    if (num_clockwise > 0) {
+      remarks->push_back(std::to_string(num_clockwise) + " of " +
+                         std::to_string(mesh.triangles.size()) +
+                         (num_clockwise == 1 ? " triangles is" : " triangles are") +
+                         " clockwise in the plane of longitude and latitude, where some "
+                         "models compute");
+    }
   }
   if (is_fesom(name)) return formats::write_fesom(fesom_folder(name), content);
   if (format == nullptr && !is_ugrid_file(name)) {

@@ -151,16 +151,21 @@ Sign sign_in_degrees(const LonLat& a, const LonLat& b, const LonLat& c) {
   return corners ? sign_of(*corners) : Sign::positive;
 }
 
-void require_area_in_degrees(std::span<const LonLat> positions, std::span<const Triple> triangles) {
+std::size_t require_area_in_degrees(std::span<const LonLat> positions,
+                                    std::span<const Triple> triangles) {
+  std::size_t num_clockwise = 0;
   for (Index t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles[t];
-    if (sign_in_degrees(positions[a], positions[b], positions[c]) != Sign::zero) continue;
+    const Sign sign = sign_in_degrees(positions[a], positions[b], positions[c]);
+    num_clockwise += sign == Sign::negative ? 1U : 0U;
+    if (sign != Sign::zero) continue;
     throw InvalidInput("triangle " + std::to_string(t) + " at longitude " +
                            system::shortest_text(positions[a].lon_deg) + ", latitude " +
                            system::shortest_text(positions[a].lat_deg) +
                            " has no area in degrees: its corners are on one line",
                        t);
   }
+  return num_clockwise;
 }
 
 }  // namespace meshing

@@ -22,7 +22,10 @@ namespace rondel::meshing {
 // show.
 Sign sign_in_degrees(const LonLat& a, const LonLat& b, const LonLat& c);
 
-// Throws InvalidInput (the position of the triangle) that says where if one has no area in degrees.
-void require_area_in_degrees(std::span<const LonLat> positions, std::span<const Triple> triangles);
+// Returns the number of triangles that are clockwise in degrees, though they are counterclockwise on the
+// sphere: long ones beside a parallel, near poles. Throws InvalidInput (the position of the triangle) that
+// says where if one has no area in degrees.
+std::size_t require_area_in_degrees(std::span<const LonLat> positions,
+                                    std::span<const Triple> triangles);
 
 }  // namespace rondel::meshing

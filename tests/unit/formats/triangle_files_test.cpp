@@ -15,6 +15,7 @@
 #include <iomanip>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <tuple>
 
@@ -397,6 +398,43 @@ TEST(triangle_files, of_gmsh_join_the_curves_of_islands) {
     const TriangleMesh read = mesh_in(with_lines(text, lines), "gmsh2");
     EXPECT_EQ(edges_of(read), edges_of(mesh)) << turn;
     EXPECT_EQ(read.boundary.size(), mesh.boundary.size());
+  }
+}
+
+// Curves of 4.1 may be in several groups, and those of a mesh in partitions are listed elsewhere.
+TEST(triangle_files, of_gmsh_find_the_group_that_is_a_kind_of_boundary) {
+  const std::string begin =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n3\n1 1 \"coastline\"\n1 2 "
+      "\"land\"\n2 3 \"water\"\n$EndPhysicalNames\n$Entities\n0 1 1 0\n7 0 0 0 1 1 0 ";
+  const std::string surface = "8 0 0 0 1 1 1 1 3 1 7\n$EndEntities\n";
+  const std::string end =
+      "$Nodes\n1 3 1 3\n2 8 0 3\n1\n2\n3\n1 0 0\n0 1 0\n0 0 1\n$EndNodes\n$Elements\n2 2 1 2\n1 7 "
+      "1 1\n1 1 2\n2 8 2 1\n2 1 2 3\n$EndElements\n";
+  const std::vector<BoundarySegment> land = {{BoundaryKind::land, {0, 1}}};
+  EXPECT_EQ(mesh_in(begin + "2 1 2 0\n" + surface + end, "msh").boundary, land);
+  EXPECT_EQ(mesh_in(begin + "2 2 1 0\n" + surface + end, "msh").boundary, land);
+  const std::string parts =
+      "$PartitionedEntities\n2\n1\n9 1\n1 1 0 0\n3 0 1 1 1 0 0 0 0\n7 1 6 2 1 2 0 0 0 1 1 0 2 1 2 "
+      "0\n"
+      "$EndPartitionedEntities\n";
+  EXPECT_EQ(mesh_in(begin + "0 0\n" + surface + parts + end, "msh").boundary, land);
+}
+
+// Four nodes near one parallel: the triangle between three of them is on the sphere to the north of it.
+TEST(triangle_files, in_degrees_tell_of_triangles_that_are_clockwise_there) {
+  const std::vector<LonLat> positions = {{0, 60}, {30, 60.2}, {60, 60}, {30, 70}, {30, 40}};
+  const std::vector<Triple> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}};
+  const TriangleMesh mesh = mesh::triangle_mesh(unit_vectors(positions), positions, triangles);
+  for (const auto& [format, number] :
+       std::map<std::string, std::size_t>{{"14", 1}, {"2dm", 1}, {"msh", 0}, {"ugrid", 0}}) {
+    std::string bytes;
+    Remarks remarks;
+    mesh::write_triangle_mesh(FileName::in_memory(bytes, format), mesh, {}, {}, &remarks);
+    EXPECT_EQ(std::ranges::count(remarks,
+                                 "1 of 4 triangles is clockwise in the plane of longitude and "
+                                 "latitude, where some models compute"),
+              number)
+        << format;
   }
 }
 
