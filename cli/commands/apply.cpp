@@ -250,8 +250,10 @@ struct AppliedCounts {
 // Calls `take` with the values at the targets, slice by slice in the order of a FieldWriter, so
 // that fields may be larger than memory. Values that are missing are NaN.
 template <typename Function>
-void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights& weights,
+void for_each_slice(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                     const ValuesAtSources& in, Function take) {
+  const Weights& weights = file.weights;
+  const auto apply_to = file.takes_largest_share ? apply_largest_share : apply;
   // A slice has as many whole fields as fit into max_values at the sources and at the targets; it
   // has one field at least.
   const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
@@ -269,7 +271,7 @@ void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights&
       applied.resize(count * weights.num_rows());
       in.read(a, first, values, job.execution());
       job.time(Stage::query,
-               [&] { apply(weights, values, applied, count, unfilled, job.execution()); });
+               [&] { apply_to(weights, values, applied, count, unfilled, job.execution()); });
       take(std::span<double>(applied));
     }
   }
@@ -277,12 +279,12 @@ void for_each_slice(Job& job, const ApplyCommandOptions& options, const Weights&
 
 // True if a value that is not missing is the number that --fill gives to those that are. Then
 // `_FillValue` in a file of netCDF would make it missing. This applies the weights once more.
-bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const Weights& weights,
+bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                            const ValuesAtSources& in) {
   const double fill = options.apply.fill;
   if (std::isnan(fill) || !is_netcdf_file(options.common.target())) return false;
   bool is_found = false;
-  for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
+  for_each_slice(job, options, file, in, [&](std::span<double> applied) {
     is_found = is_found || std::ranges::count(applied, fill) != 0;
   });
   if (is_found) {
@@ -295,12 +297,12 @@ bool has_fill_among_values(Job& job, const ApplyCommandOptions& options, const W
 
 // Applies the weights to all fields and writes them at the targets; missing values become the number
 // of --fill.
-AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weights& weights,
-                        const WeightSide& target, const ValuesAtSources& in) {
+AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
+                        const ValuesAtSources& in) {
   FieldSet out;
-  out.num_points = weights.num_rows();
+  out.num_points = file.weights.num_rows();
   out.arrays = in.fields().arrays;
-  const bool are_choices = choose_values(weights);
+  const bool are_choices = file.takes_largest_share || choose_values(file.weights);
   for (FieldArray& array : out.arrays) {
     array.is_single = false;  // sums are written as doubles
     if (!are_choices) remove_flags(array);
@@ -310,11 +312,11 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   out.fill = options.apply.fill;
   // The attribute `_FillValue` would also mark values that happen to be the number of --fill, so it
   // is written only if there are none.
-  out.is_fill_marked = !has_fill_among_values(job, options, weights, in);
-  FieldWriter writer(options.common.target(), out, target, options.netcdf, job.execution());
+  out.is_fill_marked = !has_fill_among_values(job, options, file, in);
+  FieldWriter writer(options.common.target(), out, file.target, options.netcdf, job.execution());
   tell(writer.remarks());
   AppliedCounts counts;
-  for_each_slice(job, options, weights, in, [&](std::span<double> applied) {
+  for_each_slice(job, options, file, in, [&](std::span<double> applied) {
     for (double& value : applied) {
       if (!std::isnan(value)) continue;
       value = out.fill;
@@ -362,7 +364,7 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   use_corners_as_bounds(file.target);
   const Weights& weights = file.weights;
   const ValuesAtSources in = values_of(options, file);
-  const AppliedCounts counts = apply_all(job, options, weights, file.target, in);
+  const AppliedCounts counts = apply_all(job, options, file, in);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"sources", weights.num_columns},

@@ -55,6 +55,9 @@ struct WeightFile {
   std::string method;         ///< "sibson", "Conservative remapping" ...
   std::string normalization;  ///< "destarea", "fracarea", "none"; "none" for weights of points
   std::vector<std::string> remarks;  ///< what read_weights() changed, one line each
+  /// Whether the file says that each target has the value of the largest part of its weights, which
+  /// apply_largest_share() gives it, and no mean: CDO's genlaf writes such files.
+  bool takes_largest_share = false;
 };
 
 /// Makes the corners of a side bounds of its points by CF (section 7.1), as CellSet::bounds() has them,

@@ -60,7 +60,12 @@ FieldDimensionFinder::FieldDimensionFinder(const io::NetcdfReader& file, const F
 void FieldDimensionFinder::take_pixels() {
   const GridOfFile pixels = listed_pixels(file_);
   list_of_pixels_ = pixels.list;
-  if (list_of_pixels_.empty() || wanted_.positions.empty()) return;
+  if (wanted_.positions.empty()) return;
+  if (list_of_pixels_.empty()) {
+    const auto place = [&](std::size_t i) { return wanted_.positions[i]; };
+    require_named_places(file_, {wanted_.positions.size(), nullptr, place});
+    return;
+  }
   const NamedGrid grid(pixels.name);
   const bool are_all = pixels.numbers.empty();
   const std::size_t count = are_all ? grid.num_cells() : pixels.numbers.size();

@@ -222,6 +222,39 @@ bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
   return !has_others;
 }
 
+void require_named_places(const io::NetcdfReader& reader, const PlacesOfGrid& grid) {
+  constexpr std::uint64_t num_compared = 1000;
+  if (grid.num_places == 0 || !find_coordinates(headers_of(reader)).empty()) return;
+  const auto compare = [&](std::span<const io::NetcdfAttribute> attributes,
+                           const std::string& owner) {
+    const std::string name = grid_named_by(mapping_of(attributes));
+    if (name.empty()) return;
+    const NamedGrid named(name);
+    std::vector<Index> numbers;
+    if (name.starts_with("healpix:")) {
+      if (auto pixels = pixels_of(reader, named, owner)) numbers = std::move(pixels->numbers);
+    }
+    const std::uint64_t count = numbers.empty() ? named.num_cells() : numbers.size();
+    if (count != grid.num_places) return;
+    const std::uint64_t step = std::max<std::uint64_t>(1, count / num_compared);
+    for (std::uint64_t i = 0; i < count; i += step) {
+      const LonLat wanted = grid.place(i);
+      const LonLat there = named.center(numbers.empty() ? i : numbers[i]);
+      if (std::isnan(wanted.lon_deg) || is_same_place(wanted, there, max_apart_deg)) continue;
+      throw io::BadValue("its attributes name the grid " + name +
+                         ", whose places are others than those that are wanted");
+    }
+  };
+  try {
+    compare(reader.attributes(), {});
+    for (const io::VariableInFile& variable : reader.variables()) {
+      compare(variable.attributes, variable.name);
+    }
+  } catch (const InvalidInput&) {
+    return;  // attributes that name no grid
+  }
+}
+
 GridOfFile listed_pixels(const io::NetcdfReader& reader) {
   const auto listed_by = [&](std::span<const io::NetcdfAttribute> attributes,
                              const std::string& owner) -> GridOfFile {

@@ -32,6 +32,10 @@ struct PlacesOfGrid {
 // them.
 bool may_be_at(const io::NetcdfReader& reader, const PlacesOfGrid& grid);
 
+// Throws BadValue if a file without longitudes and latitudes names a grid of as many places in its
+// attributes, as pixels of HEALPix in another order, and these are others. Some of them are compared.
+void require_named_places(const io::NetcdfReader& reader, const PlacesOfGrid& grid);
+
 // The grid on which a file says that its points are.
 struct GridOfFile {
   std::string name;  // empty if it says nothing of a grid

@@ -40,8 +40,10 @@ void require_places_of(const FileName& in, const RegridSide& side) {
     const io::NetcdfReader reader(bytes);
     const PlacesOfGrid grid{side.num_places(), side.axes(),
                             [&](std::size_t i) { return side.place(i); }};
-    if (may_be_at(reader, grid)) return;
-    throw io::BadValue("its longitudes and latitudes are not the places of " + side.name());
+    if (!may_be_at(reader, grid)) {
+      throw io::BadValue("its longitudes and latitudes are not the places of " + side.name());
+    }
+    require_named_places(reader, grid);
   });
 }
 

@@ -220,6 +220,10 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   for (const char* name : {"ESMF_regrid_method", "map_method"}) {
     if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), name);
   }
+  if (!content.method.starts_with("Largest area fraction")) return;
+  content.takes_largest_share = true;
+  content.remarks.push_back("the weights are of the method " + io::in_quotes(content.method) +
+                            ": a target has the value of the largest part of it, and no mean");
 }
 
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,

@@ -145,6 +145,19 @@ class Fields(ToolInFolder):
         data.close()
         self.assertIn('nothing says which of the dimensions "b" and "c" has the longitudes', self.run_tool(*to_grid))
 
+    def test_weights_of_the_largest_area_fraction_give_values_of_sources(self):
+        values = np.random.default_rng(5).integers(1, 4, (6, 6)).astype(float)
+        self.grid("classes.nc", t=(values, None))
+        self.run_tool("regrid", "classes.nc", "grid:45", "--method", "largest-share", "-o", "wanted.nc")
+        self.run_tool("remap", "classes.nc", "grid:45", "--format", "scrip", "-o", "w.nc")
+        self.run_tool("apply", "w.nc", "classes.nc", "-o", "means.nc")
+        with netCDF4.Dataset(self.folder / "w.nc", "a") as weights:
+            weights.map_method = "Largest area fraction"
+        said = self.run_tool("apply", "w.nc", "classes.nc", "-o", "out.nc")
+        self.assertIn('w.nc: the weights are of the method "Largest area fraction"', said)
+        np.testing.assert_array_equal(self.read("out.nc", "t"), self.read("wanted.nc", "t"))
+        self.assertFalse(np.array_equal(self.read("means.nc", "t"), self.read("wanted.nc", "t")))
+
     def test_weights_without_lengths_take_names_and_places(self):
         lat = SQUARE_LAT[:5]
         values = np.random.default_rng(8).normal(size=(5, 6))

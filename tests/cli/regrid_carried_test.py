@@ -343,6 +343,23 @@ class Carried(ToolInFolder):
             said, ['mapped.nc: variable "ipix" has the numbers of pixels that are at other places than the source']
         )
 
+    def test_a_file_that_names_another_order_of_pixels_is_refused(self):
+        with netCDF4.Dataset(self.folder / "ring.nc", "w", format="NETCDF3_CLASSIC") as file:
+            file.createDimension("cell", 192)
+            add(file, "t", ("cell",), np.arange(192.0), grid_mapping="crs")
+            add(file, "crs", (), 0, "i4", grid_mapping_name="healpix", refinement_level=2, indexing_scheme="ring")
+        self.run_tool("remap", "healpix:2", "grid:30", "-o", "w.nc")
+        self.run_tool("remap", "healpix:2:ring", "grid:30", "-o", "ring_w.nc")
+        why = "ring.nc: its attributes name the grid healpix:2:ring, whose places are others than those that are wanted"
+        for arguments in (
+            ("regrid", "ring.nc", "grid:30", "--source", "healpix:2"),
+            ("regrid", "ring.nc", "grid:30", "--source", "healpix:2", "--method", "nearest"),
+            ("apply", "w.nc", "ring.nc"),
+        ):
+            self.assertEqual(self.run_tool(*arguments, "-o", "out.nc", status=1), [why])
+        for arguments in (("regrid", "ring.nc", "grid:30", "--source", "healpix:2:ring"), ("apply", "ring_w.nc", "ring.nc")):
+            self.assertEqual(self.run_tool(*arguments, "-o", "out.nc"), [])
+
     def test_fields_may_be_named_like_coordinates(self):
         """What is written as a field is read as one, whatever its column is called; its values are those of any other."""
         names = "latitude longitude lat lon TLAT nav_lon lonVertex lat_bnds lon_bnds verticesOnCell indexToCellID grid_corner_lon".split()

@@ -379,13 +379,14 @@ class Places:
 
     def lists_in(self, data: Any) -> set[str]:
         """The variable of the data with the numbers of their pixels, or none; refuses
-        pixels that are at other places than these.
+        pixels, or a grid that the data name, at other places than these.
         """
         try:
             name, pixels = grid_of(data) or ("", None)
         except ValueError:
-            pixels = None  # numbers that are none of pixels
+            name, pixels = "", None  # numbers that are none of pixels
         if pixels is None:
+            self._require_named(data, name)
             return set()
         own, dim, numbers = pixels
         if (dim,) == self.dims and own != self._list:
@@ -397,6 +398,21 @@ class Places:
                     "the source"
                 )
         return {own}
+
+    def _require_named(self, data: Any, name: str) -> None:
+        """Refuses data without coordinates that name a grid of as many places as these, if they are
+        others.
+        """
+        if name in ("", self._grid):
+            return
+        try:
+            Coordinates(data, None, None)
+        except ValueError:
+            centers = CellSet.named(name)._degrees()
+            if len(centers) == self.lon.size and not self.are_at(centers):
+                raise ValueError(
+                    f"the data name the grid {name}, whose places are others than the source's"
+                ) from None
 
     def require_places_of(self, data: xarray.DataArray) -> None:
         """Refuses data whose own longitudes and latitudes are others, whatever their names are."""

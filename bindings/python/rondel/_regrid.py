@@ -9,11 +9,11 @@ from typing import Any, cast, get_args
 
 from ._blocks import OutputChunks
 from ._errors import warn_caller
-from ._geometries import Corners
+from ._geometries import Corners, Invalid
 from ._native import Extrapolation
 from ._regrid_files import FieldMethod, as_method
 from ._regridder import Regridder, RegridMethod
-from ._remap import SlopeLimiter
+from ._remap import CellOverlap, SlopeLimiter
 from ._types import Progress
 from ._weights import require_share
 
@@ -57,6 +57,8 @@ def regrid(
     extrap_method: Extrapolation | None = None,
     extrap_distance: float | None = None,
     corners: Corners = "error",
+    overlap: CellOverlap = "error",
+    invalid: Invalid = "error",
     limiter: SlopeLimiter = "none",
     vectors: Iterable[tuple[str, str]] = (),
     threads: int | None = None,
@@ -115,6 +117,10 @@ def regrid(
         How far sources may be from a target that is extrapolated, in kilometers; by default any.
     corners : {'error', 'made'}, optional
         As in `Regridder`: corners of cells where the coordinates have no bounds.
+    overlap : {'error', 'first', 'share', 'each'}, optional
+        As in `Regridder`: what conservative methods do if cells of one grid overlap.
+    invalid : {'error', 'repair'}, optional
+        As in `Regridder`: what they do if a cell crosses or overlaps itself.
     limiter : {'none', 'slopes'}, optional
         What limits 'conservative_2nd', as in `Regridder`: with 'slopes' no value is beyond those of
         the sources around.
@@ -170,6 +176,8 @@ def regrid(
         lon_out=lon_out,
         lat_out=lat_out,
         corners=corners,
+        overlap=overlap,
+        invalid=invalid,
         limiter=limiter,
         max_uncovered=max_missing if is_of_cells or method == "largest_share" else 1.0,
         threads=threads,

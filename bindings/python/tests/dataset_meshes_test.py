@@ -214,3 +214,14 @@ def test_values_are_at_the_nodes_of_a_mesh_if_all_of_them_are():
     data["depth"] = ("node", POINTS[:, 0], {"mesh": "mesh", "location": "node"})
     wanted = rondel.regrid(data, "grid:30", "nearest", lon="node_lon", lat="node_lat").depth
     np.testing.assert_array_equal(rondel.regrid(data, "grid:30", "nearest").depth, wanted)
+
+
+def test_data_that_name_another_order_of_pixels_are_refused():
+    ring = {"grid_mapping_name": "healpix", "refinement_level": 1, "indexing_scheme": "ring"}
+    data = xarray.Dataset({"t": ("cell", np.arange(48.0), {"grid_mapping": "crs"})})
+    data = data.assign_coords(crs=((), 0, ring))
+    regridder = rondel.Regridder("healpix:1", "grid:30", "conservative")
+    with pytest.raises(ValueError, match="the data name the grid healpix:1:ring, whose places are"):
+        regridder(data)
+    wanted = rondel.Regridder("healpix:1:ring", "grid:30", "conservative")(data).t
+    np.testing.assert_array_equal(rondel.regrid(data, "grid:30").t, wanted)

@@ -543,6 +543,17 @@ def test_each_field_is_filled_by_its_own_gaps_in_memory_too(made, tmp_path, meth
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(blocks.t)), found.t)
 
 
+def test_cells_that_overlap_are_taken_where_that_is_said(made):
+    _, data = made
+    shapely = pytest.importorskip("shapely")
+    boxes = rondel.polygons([shapely.box(0, 0, 20, 20), shapely.box(10, 0, 30, 20)])
+    with pytest.raises(rondel.InvalidInput, match="overlap='each'"):
+        rondel.regrid(data, boxes)
+    found = rondel.regrid(data, boxes, overlap="each")
+    wanted = rondel.Regridder(data, boxes, "conservative_normed", overlap="each")(data)
+    np.testing.assert_array_equal(found.warm, wanted.warm)
+
+
 @pytest.mark.parametrize("parts", [2, 3])
 @pytest.mark.parametrize("shift", [0.0, 0.3, 7.7])
 def test_all_ways_decide_exact_shares_of_missing_values_equally(made, tmp_path, parts, shift):
