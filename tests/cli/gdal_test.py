@@ -326,7 +326,7 @@ class FeaturesOfGdal(Folder):
         for ending in self.ENDINGS:
             frame.to_file(self.folder / f"f.{ending}", engine="pyogrio")
         self.same("mesh", "triangles", "--coast", "{}", "--spacing", "800", "-o", "o.14", told=self.MESHES_TELL)
-        self.same("triangulate", "{}", "--inside", "-o", "o.14", told=self.MESHES_TELL)
+        self.same("triangulate", "{}", "--inside", "-o", "o.msh", told=self.MESHES_TELL)
         self.same("mesh", "scvt", "-n", "500", "--fixed", "{}", "-o", "o.csv")
         self.same("mesh", "triangles", "--area", "{}", "--spacing", "800", "-o", "o.14", told=self.MESHES_TELL)
 

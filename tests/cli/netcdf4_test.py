@@ -164,8 +164,8 @@ class Netcdf4(ToolInFolder):
         self.assertIn('"tas" has several fields (time 3) and is no column', said)
         self.run_tool("interpolate", "model.nc:tas[1]", "--to", "t.csv", "-o", "at.csv", "--quiet")
         header, *lines = (self.folder / "at.csv").read_text().splitlines()
-        self.assertEqual(header, "lon,lat,tas_2000-01-01T06:00:00")
-        found = [float(line.split(",")[2]) for line in lines]
+        self.assertEqual(header, "lon,lat,tas_2000-01-01T06:00:00_,tas_2000-01-01T06:00:00")
+        found = [float(line.split(",")[3]) for line in lines]
         np.testing.assert_allclose(found, values[1].ravel(), atol=1e-12)
 
     def test_what_is_more_than_numbers_costs_nothing_else(self):
