@@ -42,7 +42,7 @@ class LinkTriangulation {
     start(order_[size - 3]);
     for (Index i = size - 3; i-- > 0;) put_back(test, link, order_[i]);
   }
-  // The same for a polygon that need not be convex, but whose corners that are convex are ears, also
+  // Does the same for a polygon that need not be convex, but whose corners that are convex are ears, also
   // when others have been taken off, except for positions 0 and 1: only these corners are taken off.
   // is_convex(p, u, q) says whether the corner u is, by positions, if its neighbors are p and q.
   // Returns false if there are not enough of them; faces() is invalid then.

@@ -179,7 +179,7 @@ class OtherOrders(Files):
         self.said(*nearest, "to.geojson", "-o", "o.csv")
         self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,name,lat_,v\n1,2,p,1,3\n")
         self.said(*nearest, "space.csv", "-o", "o.csv")
-        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,w,v\n0,90,own,9\n")
+        self.assertEqual((self.folder / "o.csv").read_text(), "lon,lat,v_,w,v\n0,90,old,own,9\n")
         self.said(*nearest, "to.csv", "--lon", "z", "--lat", "lat", "-o", "o.csv", status=1)
 
     def test_degrees_and_heights_are_no_places_in_space(self):
