@@ -214,6 +214,7 @@ class TrianglesOfDomain {
     constexpr int most_times = 4;
     const auto near_at = [&](const Point&) { return near; };
     meshing::drop_tiny_rings(all_.polygons, near_at);
+    meshing::shrink_tiny_lines(all_.lines, near_at);
     take_whole();
     const std::vector<Point> given = meshing::places_of(all_);
     make_crossings_corners();  // so that borders in common have the same sides and stay common

@@ -491,16 +491,13 @@ class Weld {
   std::size_t next_ = 0;  // of on_sides_
 };
 
-// True if all corners of a ring are near the one with the smallest coordinates.
-bool is_tiny_ring(const CellRings& polygons, std::uint64_t ring,
-                  const std::function<double(const Point&)>& near_at) {
-  const std::span<const Index> corners = polygons.corners_of(ring);
-  if (corners.empty()) return false;
-  const auto place = [&](Index corner) { return polygons.points[corner]; };
-  const Point least = place(*std::ranges::min_element(corners, exact::is_less, place));
+// True if all places are near the one with the smallest coordinates.
+bool are_tiny(std::span<const Point> places, const std::function<double(const Point&)>& near_at) {
+  if (places.empty()) return false;
+  const Point least = *std::ranges::min_element(places, exact::is_less);
   const double near = near_at(least);
-  return std::ranges::all_of(corners, [&](Index corner) {
-    const Point step = place(corner) - least;
+  return std::ranges::all_of(places, [&](const Point& place) {
+    const Point step = place - least;
     return dot(step, step) <= squared(near);
   });
 }
@@ -510,7 +507,7 @@ bool is_tiny_ring(const CellRings& polygons, std::uint64_t ring,
 void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point&)>& near_at) {
   std::vector<bool> is_tiny;
   for (std::uint64_t r = 0; r + 1 < polygons.rings.size(); ++r) {
-    is_tiny.push_back(is_tiny_ring(polygons, r, near_at));
+    is_tiny.push_back(are_tiny(overlay::points_of_ring(polygons, r), near_at));
   }
   if (std::ranges::find(is_tiny, true) == is_tiny.end()) return;
   CellRings kept;
@@ -539,9 +536,23 @@ void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point
   polygons = std::move(kept);
 }
 
+void shrink_tiny_lines(FeatureLines& lines, const std::function<double(const Point&)>& near_at) {
+  CompressedRows<Point> rows;
+  for (std::size_t k = 0; k < lines.rows.size(); ++k) {
+    const std::span<const Point> line = lines.rows[k];
+    if (line.size() > 1 && are_tiny(line, near_at)) {
+      rows.append(std::array{*std::ranges::min_element(line, exact::is_less)});
+    } else {
+      rows.append(line);
+    }
+  }
+  lines.rows = std::move(rows);
+}
+
 void weld(Geometries& features, const std::function<double(const Point&)>& near_at,
           std::span<const Point> given) {
   drop_tiny_rings(features.polygons, near_at);
+  shrink_tiny_lines(features.lines, near_at);
   // Sides that have moved may come near to other corners, and repaired polygons have new ones.
   constexpr int most_rounds = 4;
   for (int round = 0; round < most_rounds && Weld(features, near_at, given).run(); ++round) {

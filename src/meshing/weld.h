@@ -29,7 +29,8 @@ inline constexpr double rounding_of_places = 1e-12;
 // distance, or they are as near as rounding_of_places. A ring vanishes of which no three corners are
 // left, or all are near one of them, and a small one that would be turned inside out; and so do rings of
 // its polygon that are within it. Those all of whose given corners are near one of them vanish first
-// (drop_tiny_rings()). A line of which one point is left becomes that point. Polygons that have changed
+// (drop_tiny_rings()). A line of which one point is left becomes that point, and one all of whose points
+// are near one of them does so first (shrink_tiny_lines()). Polygons that have changed
 // are repaired (rondel/set_operations.h), each by itself; those without rings that had the outside of
 // these are the whole sphere.
 //
@@ -43,6 +44,9 @@ void weld(Geometries& features, const std::function<double(const Point&)>& near_
 // Leaves out rings all of whose corners are near one of them, and those within them, so that nothing is
 // welded to what vanishes.
 void drop_tiny_rings(CellRings& polygons, const std::function<double(const Point&)>& near_at);
+
+// Lets lines all of whose points are near one of them become that point.
+void shrink_tiny_lines(FeatureLines& lines, const std::function<double(const Point&)>& near_at);
 
 // Returns the points of lines and the corners of polygons, sorted.
 std::vector<Point> places_of(const Geometries& features);

@@ -303,6 +303,24 @@ TEST_F(SmallRingsTest, small_parts_of_the_area_vanish_where_islets_cross_them) {
   }
 }
 
+// A bit of a river that was cut into pieces, no longer than the distance of the weld, is one node.
+TEST_F(SmallRingsTest, tiny_lines_are_one_node) {
+  for (const double length : {3e-4, 1e-5, 1e-8}) {
+    SCOPED_TRACE(length);
+    const Geometries bit = line({{1, 1}, {1 + length, 1}});
+    for (const std::vector<Geometries>& lines :
+         {std::vector{bit}, {line({{-4, 1}, {1, 1}}), bit, line({{1 + length, 1}, {5, 2}})}}) {
+      for (const bool is_welded : {false, true}) {
+        TrianglesOptions options = options_;
+        if (is_welded) options.weld = 4e-4 * std::numbers::pi / 180;
+        const DomainTriangles made = triangles({{}, {sea_}, lines}, options);
+        EXPECT_GT(std::ranges::min(edge_lengths(made)), 0.5);
+        EXPECT_LT(made.mesh.nodes.size(), 200U);
+      }
+    }
+  }
+}
+
 // A lake in an island in a lake in a land, and rings that touch in corners.
 TEST(rings_within, smaller_sides) {
   Geometries all = polygon({box(0, 0, 10, 10), reversed(box(1, 1, 9, 9)), box(2, 2, 8, 8),
