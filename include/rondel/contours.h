@@ -63,8 +63,10 @@ RONDEL_API std::vector<double> first_values(const Triangulation& triangulation,
 ///
 /// 1. The isoline of c is the border of the region f >= c, without parts of that region that are no
 ///    wider than a line, and without the border of the surface. Higher values are to the left.
-/// 2. Faces with a corner whose value is missing (NaN) are left out, and so are ghost faces. A line
-///    that meets a face that is left out, or the border of the solid faces, ends there: it is open.
+/// 2. Faces with a corner whose value is missing (NaN) are left out, and so are ghost faces, and faces
+///    on the border that are flat by rounding, as between sites of a meridian: lines would run along
+///    the border in these. A line that meets a face that is left out, or the border of the solid faces,
+///    ends there: it is open.
 /// 3. No line visits a point twice. Lines meet at most in sites whose value is the level.
 /// 4. A point on an edge is computed from the edge's ends alone, the end with the lower value
 ///    first. A site whose value is the level has its unit vector as a point.
@@ -87,7 +89,7 @@ RONDEL_API Isolines isolines(const Triangulation& triangulation, std::span<const
 ///
 /// 1. The inside of a polygon is connected. Rings are simple, and two rings meet at most in points.
 ///    The polygons of a band do not overlap.
-/// 2. The bands together are the solid faces without missing values. Where two bands meet, both
+/// 2. The bands together are the solid faces that isolines() has lines in. Where two bands meet, both
 ///    have the same points, byte by byte, which are those of the isolines.
 /// 3. A polygon without rings is the whole sphere.
 /// 4. A face with three equal values belongs to the band of this value.

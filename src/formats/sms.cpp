@@ -75,7 +75,11 @@ class SmsReader {
       string_.names.push_back(name < 0 ? -name : name);
       if (name >= 0) continue;
       // Behind the last node are the id of the string and its kind.
-      if (k + 2 < count) string_.kind = from_name<BoundaryKind>(lines_.words()[k + 2]);
+      if (k + 2 < count) {
+        std::string kind(lines_.words()[k + 2]);
+        std::erase(kind, '"');
+        string_.kind = from_name<BoundaryKind>(kind);
+      }
       strings_.push_back(std::move(string_));
       string_ = {};
       return;

@@ -22,14 +22,15 @@ struct ContourSurface {
   std::span<const Triple> faces;
   // The triangle across the side opposite to each corner, or no_index at a border.
   std::span<const Triple> neighbors;
-  std::span<const Index> left_out = {};  // faces that do not count
+  std::vector<Index> left_out = {};  // faces that do not count, ascending
   std::span<const Point> sites;
   Point center{};
   // The site of a vertex -> the site that represents all sites of its place.
   std::unordered_map<Index, Index> representatives = {};
 };
 
-// Returns the solid faces of a triangulation, which must outlive the result. Throws InvalidInput for
+// Returns the solid faces of a triangulation, which must outlive the result, but for those that are flat by
+// rounding (flat_faces.h): isolines would run along the border in them, to sites far away. Throws InvalidInput for
 // weighted sites.
 ContourSurface surface_of(const Triangulation& triangulation);
 

@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "exact/point_order.h"
 #include "interpolation/contour_surface.h"
 #include "interpolation/contour_tracing.h"
+#include "interpolation/flat_faces.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/message_text.h"
@@ -129,9 +132,14 @@ ContourSurface surface_of(const Triangulation& triangulation) {
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("weighted sites have no isolines");
   }
+  const auto ghosts = triangulation.ghost_faces();
+  const std::vector<Index> flat = flat_faces_of(triangulation);
+  std::vector<Index> left_out;
+  left_out.reserve(ghosts.size() + flat.size());
+  std::ranges::merge(ghosts, flat, std::back_inserter(left_out));
   return {.faces = triangulation.faces(),
           .neighbors = triangulation.neighbors(),
-          .left_out = triangulation.ghost_faces(),
+          .left_out = std::move(left_out),
           .sites = triangulation.sites().points(),
           .center = triangulation.sphere().center,
           .representatives = find_representatives(triangulation)};

@@ -28,15 +28,12 @@ double sine_between(const exact::SplitPoint& a, const Vec& to_a, const Vec& to_b
   return norm(cross(exact::to_vector(a.hi), to_b - to_a));
 }
 
-}  // namespace
-
-// A flat face has a corner c between the other two. Where all three sides are longer than 90 degrees
-// and on one great circle, the face is half of the sphere, and no corner is between others.
-std::optional<unsigned> FlatFaces::flat_side(Index face) const {
-  const auto& v = (*mesh_)[face].vertex;
-  const std::array<Vec, 3> sides = {step(units_[v[1]], units_[v[2]]),
-                                    step(units_[v[2]], units_[v[0]]),
-                                    step(units_[v[0]], units_[v[1]])};
+// Returns the longest side of a face that is flat by its shape. A flat face has a corner c between the
+// other two. Where all three sides are longer than 90 degrees and on one great circle, the face is half of
+// the sphere, and no corner is between others.
+std::optional<unsigned> flat_side_of(const std::array<exact::SplitPoint, 3>& corners) {
+  const std::array<Vec, 3> sides = {step(corners[1], corners[2]), step(corners[2], corners[0]),
+                                    step(corners[0], corners[1])};
   std::array<double, 3> squares{};
   for (unsigned i = 0; i < 3; ++i) squares[i] = dot(sides[i], sides[i]);
   if (std::ranges::min(squares) <= min_flat_side * min_flat_side) return std::nullopt;
@@ -46,9 +43,48 @@ std::optional<unsigned> FlatFaces::flat_side(Index face) const {
   const Vec to_a = sides[b];
   const Vec to_b = -1.0 * sides[a];
   if (dot(to_a, to_b) >= 0) return std::nullopt;
-  const double sine = sine_between(units_[v[a]], to_a, to_b);
-  const bool is_flat = height_times_side(units_[v[longest]], to_a, to_b) <= max_flat_height * sine;
+  const double sine = sine_between(corners[a], to_a, to_b);
+  const bool is_flat = height_times_side(corners[longest], to_a, to_b) <= max_flat_height * sine;
   return is_flat ? std::optional(longest) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<unsigned> FlatFaces::flat_side(Index face) const {
+  const auto& v = (*mesh_)[face].vertex;
+  return flat_side_of({units_[v[0]], units_[v[1]], units_[v[2]]});
+}
+
+// As the constructor below, without a mesh.
+std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
+  const auto faces = triangulation.faces();
+  const auto neighbors = triangulation.neighbors();
+  std::vector<std::pair<Index, unsigned>> open;  // sides of solid faces, towards the outside
+  const auto open_from = [&](Index outside) {
+    for (const Index f : neighbors[outside]) {
+      if (triangulation.is_ghost(f)) continue;
+      for (unsigned i = 0; i < 3; ++i) {
+        if (neighbors[f][i] == outside) open.emplace_back(f, i);
+      }
+    }
+  };
+  for (const Index ghost : triangulation.ghost_faces()) open_from(ghost);
+  std::vector<Index> flat;
+  std::vector<bool> are_flat(open.empty() ? 0 : faces.size());
+  while (!open.empty()) {
+    const auto [f, side] = open.back();
+    open.pop_back();
+    if (are_flat[f]) continue;
+    std::array<exact::SplitPoint, 3> corners{};
+    exact::unit_vectors(triangulation.sites().points(), faces[f], triangulation.sphere().center,
+                        corners.data());
+    if (flat_side_of(corners) != side) continue;
+    are_flat[f] = true;
+    flat.push_back(f);
+    open_from(f);
+  }
+  std::ranges::sort(flat);
+  return flat;
 }
 
 FlatFaces::FlatFaces(const Triangulation& triangulation, const topology::Mesh& mesh,

@@ -38,6 +38,10 @@ inline constexpr double max_flat_height = 0x1p-49;
 // sites that are next to each other.
 inline constexpr double min_flat_side = 0x1p-29;
 
+// Returns the flat faces of a triangulation of dimension 2 or less, in ascending order. Precondition: the
+// projected model.
+std::vector<Index> flat_faces_of(const Triangulation& triangulation);
+
 class FlatFaces {
  public:
   // Finds them from the border inwards. Refers to the triangulation, its mesh and the unit vectors. Precondition:

@@ -451,6 +451,12 @@ TEST(triangle_files, of_sms_are_read_with_any_numbers) {
   EXPECT_EQ(mesh.boundary[0], (BoundarySegment{BoundaryKind::open, {0, 1, 2}}));
   EXPECT_EQ(mesh.boundary[1], (BoundarySegment{BoundaryKind::land, {2, 3, 0}}));
   EXPECT_EQ(remarks.size(), 3U);
+  const std::string kinds =
+      "MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 1\nND 2 1 0 1\nND 3 0 1 1\nNS 1 -2 1 \"land\"\nNS 2 3 -1 2 "
+      "open\n";
+  EXPECT_EQ(mesh_in(kinds, "2dm").boundary,
+            (std::vector<BoundarySegment>{{BoundaryKind::land, {0, 1}},
+                                          {BoundaryKind::open, {1, 2, 0}}}));
 }
 
 // What Gmsh writes: points as elements, nodes without triangles, other groups.

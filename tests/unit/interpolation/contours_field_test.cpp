@@ -195,6 +195,37 @@ TEST(contours, name_the_first_bad_argument) {
 }
 
 // The second site of each place has the value of the first one, which has none; the third one's value does not count.
+// Sites of a meridian are rounded, so that faces between them are 1e-16 wide and reach along the whole
+// border. No line runs along it, as no two neighbors have one value.
+TEST(isolines, do_not_run_along_the_straight_border_of_a_grid) {
+  Random random(31);
+  for (const double west : {100.0, -7.0, 33.3}) {
+    std::vector<LonLat> places;
+    std::vector<double> values;
+    for (int i = 0; i < 9; ++i) {
+      for (int j = 0; j < 9; ++j) {
+        places.push_back({west + i, static_cast<double>(j)});
+        values.push_back(10 * random.unit());
+      }
+    }
+    const std::vector<double> levels = {2, 4, 6, 8};
+    const Isolines lines = isolines(delaunay(unit_vectors(places)), values, levels);
+    std::size_t num_at_border = 0;
+    for (std::size_t k = 0; k < lines.lines.rows.size(); ++k) {
+      const std::vector<LonLat> line = lonlats(lines.lines.rows[k]);
+      const auto is_at_border = [&](const LonLat& p) {
+        return std::abs(p.lon_deg - west) < 1e-9 || std::abs(p.lon_deg - west - 8) < 1e-9;
+      };
+      for (std::size_t n = 0; n < line.size(); ++n) {
+        if (!is_at_border(line[n])) continue;
+        ++num_at_border;
+        EXPECT_FALSE(n > 0 && is_at_border(line[n - 1])) << west << ' ' << line[n].lat_deg;
+      }
+    }
+    EXPECT_GT(num_at_border, 10U);
+  }
+}
+
 TEST(contours, take_the_first_value_of_each_place) {
   Random random(23);
   std::vector<Point> sites;
