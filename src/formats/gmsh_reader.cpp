@@ -372,7 +372,8 @@ class GmshReader {
       });
       last = &line;
     }
-    for (GmshSegment& segment : joined(std::move(segments))) {
+    std::vector<GmshSegment> whole = joined(std::move(segments));
+    for (GmshSegment& segment : whole) {
       file_.segment_lines.push_back(segment.line);
       add_segment(file_, {segment.kind, std::move(segment.nodes)});
     }
