@@ -55,7 +55,7 @@ std::optional<unsigned> FlatFaces::flat_side(Index face) const {
   return flat_side_of({units_[v[0]], units_[v[1]], units_[v[2]]});
 }
 
-// As the constructor below, without a mesh.
+// Finds them as the constructor below does, without a mesh.
 std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
   const auto neighbors = triangulation.neighbors();
