@@ -172,14 +172,7 @@ class GmshReader {
 
   // Reads which groups curves are in.
   void read_entities() {
-    lines_.require("numbers of entities", 0, 1);
-    const std::uint64_t num_points = lines_.count(0, "number of points");
-    const std::uint64_t num_curves = lines_.count(1, "number of curves");
-    for (std::uint64_t i = 0; i < num_points; ++i) lines_.require("point", i, num_points);
-    for (std::uint64_t i = 0; i < num_curves; ++i) {
-      lines_.require("curve", i, num_curves);
-      read_groups_of_curve(7);
-    }
+    read_curves([] { return std::size_t{7}; });
     lines_.require("end of the entities", 0, 1);
   }
 
@@ -189,14 +182,22 @@ class GmshReader {
     lines_.require("number of ghosts", 0, 1);
     const std::uint64_t num_ghosts = lines_.count(0, "number of ghosts");
     for (std::uint64_t i = 0; i < num_ghosts; ++i) lines_.require("ghost", i, num_ghosts);
+    // A curve has its number, its parent (2), the partitions, a box (6), the groups.
+    read_curves(
+        [&] { return static_cast<std::size_t>(lines_.count(3, "number of partitions")) + 10; });
+  }
+
+  // Reads the numbers of entities, passes by the points and reads the curves. place() says which word of the
+  // current line has the number of groups.
+  template <class Place>
+  void read_curves(const Place& place) {
     lines_.require("numbers of entities", 0, 1);
     const std::uint64_t num_points = lines_.count(0, "number of points");
     const std::uint64_t num_curves = lines_.count(1, "number of curves");
     for (std::uint64_t i = 0; i < num_points; ++i) lines_.require("point", i, num_points);
     for (std::uint64_t i = 0; i < num_curves; ++i) {
       lines_.require("curve", i, num_curves);
-      // Its number, its parent (2), the partitions, a box (6), the groups.
-      read_groups_of_curve(static_cast<std::size_t>(lines_.count(3, "number of partitions")) + 10);
+      read_groups_of_curve(place());
     }
   }
 
