@@ -111,8 +111,8 @@ std::optional<EdgeTable> edges_of(const InterpolateOptions& options, const SiteT
   return read_edge_table(options.constraints, table);
 }
 
-// Where sites are their own targets, leaves out the columns that are interpolated: the field stands in
-// their place. A column of another file keeps its values, and gives way.
+// Leaves out the columns that are interpolated if sites are their own targets: the field stands in their
+// place. A column of another file keeps its values, and gives way.
 void drop_own_columns(const InterpolateOptions& options, const FieldSet& fields, Targets& targets) {
   const auto path_of = [](const FileName& file) { return file_and_variable(file).first.path; };
   if (!are_one_file(path_of(options.source_file()), path_of(options.target_file()))) return;

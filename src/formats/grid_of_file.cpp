@@ -245,13 +245,17 @@ void require_named_places(const io::NetcdfReader& reader, const PlacesOfGrid& gr
                          ", whose places are others than those that are wanted");
     }
   };
-  try {
-    compare(reader.attributes(), {});
-    for (const io::VariableInFile& variable : reader.variables()) {
-      compare(variable.attributes, variable.name);
+  const auto compare_grids = [&](std::span<const io::NetcdfAttribute> attributes,
+                                 const std::string& owner) {
+    try {
+      compare(attributes, owner);
+    } catch (const InvalidInput&) {
+      return;  // they name no grid
     }
-  } catch (const InvalidInput&) {
-    return;  // attributes that name no grid
+  };
+  compare_grids(reader.attributes(), {});
+  for (const io::VariableInFile& variable : reader.variables()) {
+    compare_grids(variable.attributes, variable.name);
   }
 }
 

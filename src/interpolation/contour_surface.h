@@ -29,9 +29,9 @@ struct ContourSurface {
   std::unordered_map<Index, Index> representatives = {};
 };
 
-// Returns the solid faces of a triangulation, which must outlive the result, but for those that are flat by
-// rounding (flat_faces.h): isolines would run along the border in them, to sites far away. Throws InvalidInput for
-// weighted sites.
+// Returns the solid faces of a triangulation, which must outlive the result, but for those that are flat
+// by rounding (flat_faces.h): isolines would run along the border in them, to sites far away. Throws
+// InvalidInput for weighted sites.
 ContourSurface surface_of(const Triangulation& triangulation);
 
 // Each throws InvalidInput for values and levels as isolines() of rondel/contours.h does. `values` are

@@ -48,16 +48,10 @@ std::optional<unsigned> flat_side_of(const std::array<exact::SplitPoint, 3>& cor
   return is_flat ? std::optional(longest) : std::nullopt;
 }
 
-}  // namespace
-
-std::optional<unsigned> FlatFaces::flat_side(Index face) const {
-  const auto& v = (*mesh_)[face].vertex;
-  return flat_side_of({units_[v[0]], units_[v[1]], units_[v[2]]});
-}
-
-// Finds them as the constructor below does, without a mesh.
-std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
-  const auto faces = triangulation.faces();
+// Finds the flat faces from the border inwards: those behind the two shorter sides of a flat face are
+// next. corners_of(f) returns the unit vectors of the corners of a face.
+template <class CornersOf>
+std::vector<Index> flat_faces(const Triangulation& triangulation, const CornersOf& corners_of) {
   const auto neighbors = triangulation.neighbors();
   std::vector<std::pair<Index, unsigned>> open;  // sides of solid faces, towards the outside
   const auto open_from = [&](Index outside) {
@@ -70,15 +64,11 @@ std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
   };
   for (const Index ghost : triangulation.ghost_faces()) open_from(ghost);
   std::vector<Index> flat;
-  std::vector<bool> are_flat(open.empty() ? 0 : faces.size());
+  std::vector<bool> are_flat(open.empty() ? 0 : triangulation.num_faces());
   while (!open.empty()) {
     const auto [f, side] = open.back();
     open.pop_back();
-    if (are_flat[f]) continue;
-    std::array<exact::SplitPoint, 3> corners{};
-    exact::unit_vectors(triangulation.sites().points(), faces[f], triangulation.sphere().center,
-                        corners.data());
-    if (flat_side_of(corners) != side) continue;
+    if (are_flat[f] || flat_side_of(corners_of(f)) != side) continue;
     are_flat[f] = true;
     flat.push_back(f);
     open_from(f);
@@ -87,31 +77,33 @@ std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
   return flat;
 }
 
+}  // namespace
+
+std::vector<Index> flat_faces_of(const Triangulation& triangulation) {
+  return flat_faces(triangulation, [&](Index f) {
+    std::array<exact::SplitPoint, 3> corners{};
+    exact::unit_vectors(triangulation.sites().points(), triangulation.faces()[f],
+                        triangulation.sphere().center, corners.data());
+    return corners;
+  });
+}
+
 FlatFaces::FlatFaces(const Triangulation& triangulation, const topology::Mesh& mesh,
                      std::span<const exact::SplitPoint> units)
     : triangulation_(&triangulation), mesh_(&mesh), units_(units) {
-  if (triangulation.num_ghost_faces() == 0) return;
-  std::vector<topology::Halfedge> open;  // of solid faces, towards the outside
-  for (Index f = 0; f < triangulation.num_faces(); ++f) {
-    if (!triangulation.is_ghost(f)) continue;
-    for (const topology::Halfedge h : mesh[f].opposite) {
-      if (!triangulation.is_ghost(topology::face_of(h))) open.push_back(h);
-    }
-  }
-  // The faces behind the two shorter sides of a flat face are next.
-  while (!open.empty()) {
-    const topology::Halfedge h = open.back();
-    open.pop_back();
-    const Index f = topology::face_of(h);
-    if (contains(f) || flat_side(f) != topology::edge_of(h)) continue;
-    if (empty()) are_flat_.resize(triangulation.num_faces());
-    are_flat_[f] = true;
-    for (const unsigned i :
-         {next_corner[topology::edge_of(h)], previous_corner[topology::edge_of(h)]}) {
-      const topology::Halfedge inside = mesh[f].opposite[i];
-      if (!triangulation.is_ghost(topology::face_of(inside))) open.push_back(inside);
-    }
-  }
+  const std::vector<Index> flat = flat_faces(triangulation, [&](Index f) { return corners_of(f); });
+  if (flat.empty()) return;
+  are_flat_.resize(triangulation.num_faces());
+  for (const Index f : flat) are_flat_[f] = true;
+}
+
+std::array<exact::SplitPoint, 3> FlatFaces::corners_of(Index face) const {
+  const auto& v = (*mesh_)[face].vertex;
+  return {units_[v[0]], units_[v[1]], units_[v[2]]};
+}
+
+std::optional<unsigned> FlatFaces::flat_side(Index face) const {
+  return flat_side_of(corners_of(face));
 }
 
 Location FlatFaces::on_edge(Index face, unsigned edge) const {

@@ -19,6 +19,7 @@
 // index faces of the mesh, spatial ranks of vertices
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,8 +45,8 @@ std::vector<Index> flat_faces_of(const Triangulation& triangulation);
 
 class FlatFaces {
  public:
-  // Finds them from the border inwards. Refers to the triangulation, its mesh and the unit vectors. Precondition:
-  // dimension 2, the projected model.
+  // Refers to the triangulation, its mesh and the unit vectors. Precondition: dimension 2, the projected
+  // model.
   FlatFaces(const Triangulation& triangulation, const topology::Mesh& mesh,
             std::span<const exact::SplitPoint> units);
   FlatFaces() = default;  // no faces
@@ -69,6 +70,7 @@ class FlatFaces {
  private:
   // Returns the longest side of a face that is flat by its shape, wherever it is.
   [[nodiscard]] std::optional<unsigned> flat_side(Index face) const;
+  [[nodiscard]] std::array<exact::SplitPoint, 3> corners_of(Index face) const;
   // Returns the edge of the chain that is beside a target in a flat face.
   [[nodiscard]] Location on_chain(Index face, const exact::SplitPoint& unit) const;
   [[nodiscard]] Location on_edge(Index face, unsigned edge) const;
